@@ -1,21 +1,28 @@
 #!/usr/bin/env python3
-"""Close pairs beside ipc-toolkit's: the same sets, and how long each takes, in one process, turn by turn.
+"""Compares close pairs with ipc-toolkit: equal sets, and times, in one process, turn by turn.
 
     cargo build --release -p pliant-scenes --example write_obj
-    python3 -m venv target/ipctk && target/ipctk/bin/pip install ipctk==1.6.1 libigl==2.6.3 ./bindings/python
+    python3 -m venv target/ipctk
+    target/ipctk/bin/pip install ipctk==1.6.1 libigl==2.6.3 ./bindings/python
     target/ipctk/bin/python benchmarks/compare_close_with_ipctk.py
 
-Both are asked for vertices and triangles, and edges and edges, of all bodies, each with itself too, that are at most m mean lengths of an
-edge apart, with one thread and positions of 64 bits. ipctk's way is `NormalCollisions.build` with its LBVH and the activation distance;
-ours is what a step of a simulator calls: positions, both lists, with distance, direction and closest points. Shapes are those of two
-steps, in turn. Making the meshes known is timed for neither.
+Both are asked for vertex-triangle and edge-edge pairs at most m mean edge lengths apart, of all
+bodies and of each with itself, with one thread and 64-bit positions. ipctk's call is
+`NormalCollisions.build` with its LBVH and the activation distance. Ours is the step of a
+simulator: positions, and both lists with distance, direction and closest points. Shapes of two
+steps alternate. Adding the meshes is timed for neither.
 
-First the answers are compared. ipctk keeps the closest features of each pair, every one once: two vertices, a vertex and an edge, a vertex
-and a face, two edges; edges that are nearly parallel it keeps as edges whatever is closest. So the features of each of our pairs must be
-among its, or the pair itself if it is of edges; and each of its must come from one of our pairs. Left out is what rounding may change, and
-counted as *ties*: what is within 1e-9 of the limit (it takes what is nearer than that, we what is not further), and pairs for which it
-has other features at the same distance within 1e-9. Everything else is an error, and the exit code is 1. Then rounds are played in
-turn, and the figure is the median, over rounds, of its time over ours; its lists are in no order, ours are sorted.
+First the answers are compared. ipctk keeps the closest features of each pair, each once: two
+vertices, a vertex and an edge, a vertex and a face, two edges. Edges that are nearly parallel stay
+edges, whatever is closest. So the features of each of our pairs must be among ipctk's, or the pair
+itself if it is of edges; and each of ipctk's must come from one of our pairs. Differences that
+rounding explains are counted as *ties*:
+
+- pairs within 1e-9 of the limit (ipctk takes pairs nearer than that, we take pairs up to it);
+- pairs for which ipctk has other features at an equal distance, within 1e-9.
+
+Every other difference is an error, and the exit code is 1. Then rounds are played in turn. The
+figure is the median, over rounds, of ipctk's time over ours. Our lists are sorted, ipctk's are not.
 """
 
 import statistics
@@ -29,14 +36,17 @@ import pliant
 from compare_with_ipctk import all_bodies, arguments_of, numbers
 
 MARGINS = [0.1, 0.5]
-# How exactly its distances and ours are expected to agree, relative.
+# Relative difference up to which its distances and ours count as equal.
 TIE = 1e-9
 
 
 class Ours:
     def __init__(self, bodies):
         self.world = pliant.World()
-        self.ids = [self.world.add(faces, vertices) for faces, vertices in zip(bodies.faces, bodies.steps[0])]
+        self.ids = [
+            self.world.add(faces, vertices)
+            for faces, vertices in zip(bodies.faces, bodies.steps[0])
+        ]
 
     def ask(self, shapes, distance):
         for body, shape in zip(self.ids, shapes):
@@ -48,17 +58,28 @@ class Ours:
         )
 
     def pairs(self, bodies, found):
-        """Of either kind the vertices of the first and of the second, in the mesh of all bodies; and what each counts."""
+        """Vertices of both elements of each pair, numbered in the joint mesh, and their weights."""
         place = numpy.zeros(int(max(self.ids)) + 1, dtype=numpy.int64)
         for at, body in enumerate(self.ids):
             place[int(body)] = at
-        edges = [self.world.edges(body).astype(numpy.int64) + bodies.first_vertex[at] for at, body in enumerate(self.ids)]
+        edges = [
+            self.world.edges(body).astype(numpy.int64) + bodies.first_vertex[at]
+            for at, body in enumerate(self.ids)
+        ]
         first_edge = numpy.cumsum([0] + [len(of_body) for of_body in edges])
         edges = numpy.concatenate(edges)
         rows = found[0].pairs.astype(numpy.int64)
         vertices = bodies.first_vertex[place[rows[:, 0]]] + rows[:, 1]
-        faces = bodies.all_faces[bodies.first_face[place[rows[:, 2]]] + rows[:, 3]].astype(numpy.int64)
-        of_vertices = (vertices[:, None], faces, numpy.ones((len(rows), 1)), found[0].barycentric, found[0].distance)
+        faces = bodies.all_faces[bodies.first_face[place[rows[:, 2]]] + rows[:, 3]].astype(
+            numpy.int64
+        )
+        of_vertices = (
+            vertices[:, None],
+            faces,
+            numpy.ones((len(rows), 1)),
+            found[0].barycentric,
+            found[0].distance,
+        )
         rows = found[1].pairs.astype(numpy.int64)
         ends = [edges[first_edge[place[rows[:, side]]] + rows[:, side + 1]] for side in (0, 2)]
         counts = found[1].barycentric
@@ -76,7 +97,7 @@ class Theirs:
         self.collisions.build(self.mesh, shape, distance, 0.0, ipctk.LBVH())
 
     def features(self):
-        """Two vertices, an edge and a vertex, a face and a vertex, two edges: as numbers of its mesh."""
+        """Features by kind (VV, EV, FV, EE), as numbers of its mesh."""
         of = self.collisions
         return {
             "vv": numbers((it.vertex0_id, it.vertex1_id) for it in of.vv_collisions),
@@ -87,7 +108,7 @@ class Theirs:
 
 
 class Features:
-    """Names of features by their vertices: a row of four numbers, of which the first says how many are of the first element."""
+    """Names of features: sets of the vertices of both elements."""
 
     def __init__(self, bodies):
         self.edges = bodies.all_edges.astype(numpy.int64)
@@ -95,7 +116,7 @@ class Features:
 
     @staticmethod
     def name(first, second):
-        """Two sets of vertices, in no order."""
+        """Name of two elements: their sets of vertices, in no order."""
         return frozenset((frozenset(first), frozenset(second)))
 
     def theirs(self, found):
@@ -105,19 +126,25 @@ class Features:
             "fv": lambda face, vertex: (self.faces[face].tolist(), (vertex,)),
             "ee": lambda a, b: (self.edges[a].tolist(), self.edges[b].tolist()),
         }
-        return {self.name(*corners[kind](int(a), int(b))) for kind, rows in found.items() for a, b in rows}
+        return {
+            self.name(*corners[kind](int(a), int(b)))
+            for kind, rows in found.items()
+            for a, b in rows
+        }
 
     def ours(self, pairs):
-        """For each pair its whole elements, its closest features, and its distance."""
+        """Whole elements, closest features and distance of each pair."""
         first, second, count_first, count_second, distance = pairs
-        for a, b, x, y, apart in zip(first.tolist(), second.tolist(), count_first > 0, count_second > 0, distance.tolist()):
+        for a, b, x, y, apart in zip(
+            first.tolist(), second.tolist(), count_first > 0, count_second > 0, distance.tolist()
+        ):
             near_a = [vertex for vertex, counts in zip(a, x) if counts]
             near_b = [vertex for vertex, counts in zip(b, y) if counts]
             yield self.name(a, b), self.name(near_a, near_b), apart
 
 
 def apart(shape, name):
-    """How far features are apart, as ipctk measures them."""
+    """Distance of two features, measured by ipctk."""
     first, second = sorted(name, key=len, reverse=True) if len(name) == 2 else 2 * list(name)
     p, q = ([shape[vertex] for vertex in sorted(feature)] for feature in (first, second))
     if len(p) == 3:
@@ -132,18 +159,22 @@ def apart(shape, name):
 
 
 def parts(name):
-    """Everything that the closest features of two elements can be."""
+    """All features that can be the closest of two elements."""
     first, second = (sorted(feature) for feature in (name if len(name) == 2 else 2 * list(name)))
 
     def of(corners):
         pairs = [(a, b) for i, a in enumerate(corners) for b in corners[i + 1 :]]
-        return [(corner,) for corner in corners] + pairs + ([tuple(corners)] if len(corners) == 3 else [])
+        return (
+            [(corner,) for corner in corners]
+            + pairs
+            + ([tuple(corners)] if len(corners) == 3 else [])
+        )
 
     return [Features.name(a, b) for a in of(first) for b in of(second)]
 
 
 def compare_sets(bodies, ours, found, theirs, shape, limit):
-    """How many pairs are ties, and how many are errors."""
+    """Number of ties and number of errors."""
     names = Features(bodies)
     its = names.theirs(theirs.features())
     ties, errors = 0, 0
@@ -153,7 +184,11 @@ def compare_sets(bodies, ours, found, theirs, shape, limit):
             covered.update((whole, nearest))
             if nearest in its or whole in its:
                 continue
-            same = [part for part in parts(whole) if part in its and abs(apart(shape, part) - distance) <= TIE * limit]
+            same = [
+                part
+                for part in parts(whole)
+                if part in its and abs(apart(shape, part) - distance) <= TIE * limit
+            ]
             covered.update(same)
             is_tie = bool(same) or abs(distance - limit) <= TIE * limit
             ties, errors = ties + is_tie, errors + (not is_tie)
@@ -186,7 +221,9 @@ def compare(bodies, margin, rounds):
     for _ in range(rounds):
         pair = [0.0, 0.0]
         for separate, together in turns:
-            for which, ask in enumerate([lambda: ours.ask(separate, distance), lambda: theirs.ask(together, distance)]):
+            for which, ask in enumerate(
+                [lambda: ours.ask(separate, distance), lambda: theirs.ask(together, distance)]
+            ):
                 begin = time.perf_counter()
                 found = ask()
                 pair[which] += (time.perf_counter() - begin) / 2
@@ -196,19 +233,28 @@ def compare(bodies, margin, rounds):
     ratios = [b / a for a, b in times]
     factor = f"{statistics.median(ratios):5.2f} ({min(ratios):.2f} to {max(ratios):.2f})"
     what = f"margin {margin:g}"
-    line = f"{bodies.name:<24} {what:<11} {pairs // 2:>10,} {kept // 2:>10,} {ties:>7,} {errors:>7} {own:>9.2f} {other:>9.2f}   {factor}"
+    line = (
+        f"{bodies.name:<24} {what:<11} {pairs // 2:>10,} {kept // 2:>10,} {ties:>7,} {errors:>7}"
+        f" {own:>9.2f} {other:>9.2f}   {factor}"
+    )
     print(line, flush=True)
     return errors
 
 
 def main():
     arguments = arguments_of(__doc__, 9)
-    head = f"{'':<24} {'':<11} {'pairs':>10} {'features':>10} {'ties':>7} {'errors':>7} {'ours, ms':>9} {'its, ms':>9}   times faster"
+    head = (
+        f"{'':<24} {'':<11} {'pairs':>10} {'features':>10} {'ties':>7} {'errors':>7}"
+        f" {'ours, ms':>9} {'its, ms':>9}   times faster"
+    )
     print(head)
     errors = 0
     for bodies in all_bodies(arguments):
         errors += sum(compare(bodies, margin, arguments.rounds) for margin in MARGINS)
-    print(f"\nfeatures: what ipctk keeps; ties: left to rounding, in either; errors, of any kind: {errors}")
+    print(
+        "\nfeatures: what ipctk keeps; ties: left to rounding, in either; errors, of any kind:"
+        f" {errors}"
+    )
     return 1 if errors else 0
 
 

@@ -1,17 +1,20 @@
 #!/usr/bin/env python3
-"""The distance of two spheres apart that deform at every step, beside FCL's: the same distances, and how long each takes.
+"""Compares the distance of two deforming spheres with FCL: equal distances, and times.
 
     cargo build --release -p pliant-scenes --example write_obj
-    python3 -m venv target/ipctk && target/ipctk/bin/pip install python-fcl==0.7.0.11 libigl==2.6.3 ./bindings/python
+    python3 -m venv target/ipctk
+    target/ipctk/bin/pip install python-fcl==0.7.0.11 libigl==2.6.3 ./bindings/python
     target/ipctk/bin/python benchmarks/compare_distance_with_fcl.py
 
-Scenes are those of `pliant bench close`, steps 1 to 50 of the spheres, in which they are apart, with one thread and positions of 64 bits.
-Ours is what a program calls at a step: positions of both, `distance`. FCL's is a `BVHModel` of either: it has no call in Python that gives
-a model new vertices, so models are made anew at every step, which is its only way there, and that is timed as *making*; *asking* is its
-`distance` alone, which returns the nearest points as ours does.
+Scenes are as in `pliant bench close`: steps 1 to 50 of the spheres, in which they are apart, with
+one thread and 64-bit positions. Ours sets the positions of both and calls `distance`, as a program
+does in a step. FCL has a `BVHModel` of each. Its Python package cannot give a model new vertices,
+so models are made anew at every step, which is timed as *making*. *Asking* is its `distance`
+alone, which returns the nearest points as ours does.
 
-First the distances are compared at every step: FCL's are taken for the same within 1e-6 of themselves. Anything else is an error, and
-the exit code is 1. Then rounds are played in turn, all steps of a round in a row, and figures are medians over rounds, of a step.
+First the distances are compared at every step: they are equal if they differ by at most 1e-6,
+relative. Any other difference is an error, and the exit code is 1. Then rounds are played in turn,
+all steps of a round in a row. Figures are medians over rounds, for one step.
 """
 
 import argparse
@@ -95,29 +98,46 @@ def compare(exporter, folder, triangles, rounds):
         for shapes in steps:
             theirs.ask(shapes)
         times.append([time * 1e3 / len(steps) for time in (own, theirs.making, theirs.asking)])
-    own, making, asking = (statistics.median(of_round[which] for of_round in times) for which in range(3))
+    own, making, asking = (
+        statistics.median(of_round[which] for of_round in times) for which in range(3)
+    )
 
     def factor(its):
         ratios = [its(of_round) / of_round[0] for of_round in times]
         return f"{statistics.median(ratios):6.1f} ({min(ratios):.1f} to {max(ratios):.1f})"
 
-    whole, alone = factor(lambda of_round: of_round[1] + of_round[2]), factor(lambda of_round: of_round[2])
+    whole, alone = factor(lambda of_round: of_round[1] + of_round[2]), factor(
+        lambda of_round: of_round[2]
+    )
     name = f"two spheres of {triangles:,}"
-    print(f"{name:<24} {errors:>7} {own:>9.3f} {making:>9.3f} {asking:>9.3f}   {whole:<24}   {alone}", flush=True)
+    print(
+        f"{name:<24} {errors:>7} {own:>9.3f} {making:>9.3f} {asking:>9.3f}   {whole:<24}   {alone}",
+        flush=True,
+    )
     return errors
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--exporter", type=pathlib.Path, default=CHECKOUT / "target/release/examples/write_obj")
+    parser.add_argument(
+        "--exporter", type=pathlib.Path, default=CHECKOUT / "target/release/examples/write_obj"
+    )
     parser.add_argument("--rounds", type=int, default=9)
     arguments = parser.parse_args()
 
-    versions = f"pliant {pliant.__version__} and python-fcl {importlib.metadata.version('python-fcl')}"
+    versions = (
+        f"pliant {pliant.__version__} and python-fcl {importlib.metadata.version('python-fcl')}"
+    )
     print(f"{versions}, one thread, {len(STEPS)} steps, {arguments.rounds} rounds\n")
-    print(f"{'':<24} {'errors':>7} {'ours, ms':>9} {'making':>9} {'asking':>9}   {'times faster':<24}   than asking alone")
+    print(
+        f"{'':<24} {'errors':>7} {'ours, ms':>9} {'making':>9} {'asking':>9}   {'times faster':<24}"
+        "   than asking alone"
+    )
     with tempfile.TemporaryDirectory() as folder:
-        errors = sum(compare(arguments.exporter, pathlib.Path(folder), size, arguments.rounds) for size in SIZES)
+        errors = sum(
+            compare(arguments.exporter, pathlib.Path(folder), size, arguments.rounds)
+            for size in SIZES
+        )
     print(f"\nerrors, distances that differ by more than 1e-6 of themselves: {errors}")
     return 1 if errors else 0
 

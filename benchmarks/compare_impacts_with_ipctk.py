@@ -1,20 +1,27 @@
 #!/usr/bin/env python3
-"""Continuous collision beside ipc-toolkit's: what is decided, and how long it takes, in one process, turn by turn.
+"""Compares continuous collision detection with ipc-toolkit: decisions, and times, turn by turn.
 
     cargo build --release -p pliant-scenes --example write_obj
-    python3 -m venv target/ipctk && target/ipctk/bin/pip install ipctk==1.6.1 libigl==2.6.3 ./bindings/python
+    python3 -m venv target/ipctk
+    target/ipctk/bin/pip install ipctk==1.6.1 libigl==2.6.3 ./bindings/python
     target/ipctk/bin/python benchmarks/compare_impacts_with_ipctk.py
 
-Bodies move from a step to the next, or the stated part of the way there, all with each other and each with itself; one thread, positions of 64 bits.
+Bodies move from a step to the next, or the stated part of the way there. All are compared with
+each other and each with itself, with one thread and 64-bit positions, in one process.
 
-    step          how far everything may go: ours `collision_free_step(EVERYTHING)`, positions and motions set before as a step sets them; its
-                  `Candidates.build` with LBVH and `compute_collision_free_stepsize`, with Tight-Inclusion and with its additive CCD
-    a candidate   ours: the time of all impacts, less that of showing all candidates to a visitor who counts them, over their number. Its:
-                  the time of `compute_collision_free_stepsize` over the number of its candidates; as it may skip those that are later than the
-                  earliest so far, that is less than it takes for one
+    step          The largest step free of collision.
+                  Ours: `collision_free_step(EVERYTHING)`, after positions and motions are set.
+                  Its: `Candidates.build` with LBVH and `compute_collision_free_stepsize`, with
+                  Tight-Inclusion and with additive CCD.
+    a candidate   The time to decide one candidate.
+                  Ours: the time of all impacts, minus the time of a visitor who counts all
+                  candidates, over their number.
+                  Its: the time of `compute_collision_free_stepsize` over the number of its
+                  candidates. It may skip candidates later than the earliest so far, so this is
+                  less than the time that one takes.
 
-The first contact is compared: ours is in [low, high], 10^-6 wide; a step of ipctk's that is larger than `high` is counted as a miss of its, one of ours
-that is larger than `high` as an error, and the exit code is 1 if there is one.
+The first contact is compared: ours is in [low, high], 10^-6 wide. A step of ipctk larger than
+`high` counts as a miss. A step of ours larger than `high` is an error, and the exit code is 1.
 """
 
 import statistics
@@ -68,18 +75,28 @@ def compare(bodies, part, rounds):
 
     def candidates():
         move()
-        asked = (ours.world.vertex_triangle_candidates(EVERY, 0.0), ours.world.edge_edge_candidates(EVERY, 0.0))
+        asked = (
+            ours.world.vertex_triangle_candidates(EVERY, 0.0),
+            ours.world.edge_edge_candidates(EVERY, 0.0),
+        )
         return sum(counted(query) for query in asked)
 
     def build():
         theirs.ask(start_together, end_together, 0.0)
 
     def stepsize(method):
-        return theirs.candidates.compute_collision_free_stepsize(theirs.mesh, start_together, end_together, 0.0, method)
+        return theirs.candidates.compute_collision_free_stepsize(
+            theirs.mesh, start_together, end_together, 0.0, method
+        )
 
     times = {name: [] for name in ("step", "impacts", "candidates", "build", "tight", "additive")}
     for _ in range(rounds):
-        for name, ask in (("step", step), ("impacts", impacts), ("candidates", candidates), ("build", build)):
+        for name, ask in (
+            ("step", step),
+            ("impacts", impacts),
+            ("candidates", candidates),
+            ("build", build),
+        ):
             taken, found = timed(ask)
             times[name].append(taken)
             if name == "step":
@@ -103,8 +120,9 @@ def compare(bodies, part, rounds):
     its = [median[name] / len(theirs.candidates) * 1e6 for name in ("tight", "additive")]
     whole = [median["build"] + median[name] for name in ("tight", "additive")]
     print(
-        f"{bodies.name:<24} {part:<4g} {count:>10,} {hits:>7,} {mine:>9.6f} {tight:>9.6f} {additive:>9.6f} {misses:>6} "
-        f"{median['step']:>8.2f} {whole[0]:>9.1f} {whole[1]:>9.1f}   {each:>6.1f} {its[0]:>8.1f} {its[1]:>7.1f}",
+        f"{bodies.name:<24} {part:<4g} {count:>10,} {hits:>7,} {mine:>9.6f} {tight:>9.6f}"
+        f" {additive:>9.6f} {misses:>6} {median['step']:>8.2f} {whole[0]:>9.1f} {whole[1]:>9.1f}  "
+        f" {each:>6.1f} {its[0]:>8.1f} {its[1]:>7.1f}",
         flush=True,
     )
     return error
@@ -112,15 +130,22 @@ def compare(bodies, part, rounds):
 
 def main():
     arguments = arguments_of(__doc__, 7)
-    print(f"{'':<24} {'':<4} {'':>10} {'':>7} {'step':>9} {'':>9} {'':>9} {'':>6} {'whole step, ms':>28}   {'a candidate, ns':>23}")
     print(
-        f"{'':<24} {'part':<4} {'candidates':>10} {'impacts':>7} {'ours':>9} {'Tight-I.':>9} {'additive':>9} {'misses':>6} "
-        f"{'ours':>8} {'Tight-I.':>9} {'additive':>9}   {'ours':>6} {'Tight-I.':>8} {'add.':>7}"
+        f"{'':<24} {'':<4} {'':>10} {'':>7} {'step':>9} {'':>9} {'':>9} {'':>6}"
+        f" {'whole step, ms':>28}   {'a candidate, ns':>23}"
+    )
+    print(
+        f"{'':<24} {'part':<4} {'candidates':>10} {'impacts':>7} {'ours':>9} {'Tight-I.':>9}"
+        f" {'additive':>9} {'misses':>6} {'ours':>8} {'Tight-I.':>9} {'additive':>9}   {'ours':>6}"
+        f" {'Tight-I.':>8} {'add.':>7}"
     )
     errors = 0
     for bodies in all_bodies(arguments):
         errors += sum(compare(bodies, part, arguments.rounds) for part in PARTS)
-    print(f"\nmisses: steps of ipctk's beyond the first contact; errors, steps of ours that are: {errors}")
+    print(
+        "\nmisses: steps of ipctk's beyond the first contact; errors, steps of ours that are:"
+        f" {errors}"
+    )
     return 1 if errors else 0
 
 

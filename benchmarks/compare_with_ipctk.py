@@ -1,22 +1,25 @@
 #!/usr/bin/env python3
-"""Candidates within a margin beside ipc-toolkit's: the same lists, and how long each takes, in one process, turn by turn.
+"""Compares candidates within a margin with ipc-toolkit: equal lists, and times, turn by turn.
 
     cargo build --release -p pliant-scenes --example write_obj
-    python3 -m venv target/ipctk && target/ipctk/bin/pip install ipctk==1.6.1 libigl==2.6.3 ./bindings/python
+    python3 -m venv target/ipctk
+    target/ipctk/bin/pip install ipctk==1.6.1 libigl==2.6.3 ./bindings/python
     target/ipctk/bin/python benchmarks/compare_with_ipctk.py
 
-Both are asked for vertex-triangle and edge-edge candidates of all bodies, each with itself too, with one thread and positions of
-64 bits. ipctk's way is `Candidates.build` with its LBVH, the fastest of its broad phases on a processor, which makes its trees anew in
-every call; ours is what a step of a simulator calls: positions, the end of the motion if there is one, both lists. Making the meshes
-known is timed for neither.
+Both are asked for vertex-triangle and edge-edge candidates of all bodies and of each with itself,
+with one thread and 64-bit positions, in one process. ipctk's call is `Candidates.build` with its
+LBVH, the fastest of its broad phases on a processor, which rebuilds its trees in every call. Ours
+is the step of a simulator: positions, the end of the motion if there is one, both lists. Adding
+the meshes is timed for neither.
 
-    margin m      found within m mean lengths of an edge: r is half of that; shapes are those of two steps, in turn
-    swept f       r = 0, from a step to the part f of the way to the next, and then from that one back
+    margin m      pairs within m mean edge lengths: r is half of that; shapes of two steps alternate
+    swept f       r = 0, from a step the part f of the way to the next, and then back from there
     whole         swept 1
 
-First the lists are compared. ipctk rounds boxes outward to 32 bits, so it may have more: each that it has alone must have a gap of
-at most 2 r + 2^-21 of the largest coordinate; whatever we have alone is an error, and the exit code is 1. Then rounds are
-played in turn, and the figure is the median, over rounds, of its time over ours; its list is in no order, ours is sorted.
+First the lists are compared. ipctk rounds boxes outward to 32 bits, so it may have more. Each pair
+that it has alone must have a gap of at most 2 r + 2^-21 of the largest coordinate. A pair that we
+have alone is an error, and the exit code is 1. Then rounds are played in turn. The figure is the
+median, over rounds, of ipctk's time over ours. Our list is sorted, ipctk's is not.
 """
 
 import argparse
@@ -35,17 +38,18 @@ import numpy
 import pliant
 
 CHECKOUT = pathlib.Path(__file__).resolve().parent.parent
-# Of a scene of ours: its name, triangles a body, a step, the one after it.
+# Scenes of ours: name, triangles a body, a step, the next step.
 SCENES = [("spheres", 20480, 180), ("crowd", 5120, 175), ("cloth", 79202, 45)]
 REAL = [("armadillo-rollers", 326), ("cloth-funnel", 227)]
 CASES = [("margin", 0.1), ("margin", 0.5), ("swept", 0.1), ("swept", 1.0)]
-# Each box may be rounded outward by one step of 32 bits on either side, twice; a step is at most 2^-23 of a number.
+# Each box may be rounded outward by one 32-bit step on either side, twice. A step is at most
+# 2^-23 of a number.
 ROUNDING = 2.0**-21
 
 
 @dataclasses.dataclass
 class Bodies:
-    """Bodies at two steps, and all of them as one mesh, which is what ipctk takes."""
+    """Bodies at two steps, and their joint mesh, which ipctk takes."""
 
     name: str
     faces: list
@@ -67,7 +71,9 @@ class Bodies:
 
 def read(path):
     vertices, faces = igl.read_triangle_mesh(str(path))
-    return numpy.ascontiguousarray(vertices, dtype=numpy.float64), numpy.ascontiguousarray(faces, dtype=numpy.int64)
+    return numpy.ascontiguousarray(vertices, dtype=numpy.float64), numpy.ascontiguousarray(
+        faces, dtype=numpy.int64
+    )
 
 
 def scene(exporter, folder, name, triangles, first):
@@ -90,7 +96,10 @@ def real(data, name, frame):
 class Ours:
     def __init__(self, bodies):
         self.world = pliant.World()
-        self.ids = [self.world.add(faces, vertices) for faces, vertices in zip(bodies.faces, bodies.steps[0])]
+        self.ids = [
+            self.world.add(faces, vertices)
+            for faces, vertices in zip(bodies.faces, bodies.steps[0])
+        ]
 
     def ask(self, starts, ends, radius):
         for body, start in zip(self.ids, starts):
@@ -105,16 +114,22 @@ class Ours:
         )
 
     def pairs(self, bodies, found):
-        """As numbers in the mesh of all bodies: vertex and face; edge and edge, of the vertices of an edge in order."""
+        """Pairs numbered in the joint mesh: vertex and face; edge and edge, by sorted vertices."""
         places = {int(body): place for place, body in enumerate(self.ids)}
         place = numpy.zeros(max(places) + 1, dtype=numpy.int64)
         for body, at in places.items():
             place[body] = at
-        edge_of = {tuple(sorted(ends)): number for number, ends in enumerate(bodies.all_edges.tolist())}
+        edge_of = {
+            tuple(sorted(ends)): number for number, ends in enumerate(bodies.all_edges.tolist())
+        }
         numbers = []
         for body, at in places.items():
             ends = self.world.edges(body).astype(numpy.int64) + bodies.first_vertex[at]
-            numbers.append(numpy.array([edge_of[tuple(sorted(pair))] for pair in ends.tolist()], dtype=numpy.int64))
+            numbers.append(
+                numpy.array(
+                    [edge_of[tuple(sorted(pair))] for pair in ends.tolist()], dtype=numpy.int64
+                )
+            )
         first = numpy.cumsum([0] + [len(of_body) for of_body in numbers])
         number = numpy.concatenate(numbers)
         vertex_face, edge_edge = (rows.astype(numpy.int64) for rows in found)
@@ -137,7 +152,9 @@ class Theirs:
     def pairs(self):
         vertex_face = numbers((row.vertex_id, row.face_id) for row in self.candidates.fv_candidates)
         edge_edge = numbers((row.edge0_id, row.edge1_id) for row in self.candidates.ee_candidates)
-        return keys(vertex_face[:, 0], vertex_face[:, 1]), keys(edge_edge.min(axis=1), edge_edge.max(axis=1))
+        return keys(vertex_face[:, 0], vertex_face[:, 1]), keys(
+            edge_edge.min(axis=1), edge_edge.max(axis=1)
+        )
 
 
 def numbers(rows):
@@ -150,7 +167,7 @@ def keys(first, second):
 
 
 def gaps(bodies, start, end, keys, are_edges):
-    """The gaps of the boxes of pairs of elements."""
+    """Gaps of the boxes of pairs of elements."""
     shapes = [start] if end is None else [start, end]
 
     def boxes(corners):
@@ -164,12 +181,15 @@ def gaps(bodies, start, end, keys, are_edges):
 
 
 def shapes_of(bodies, kind, amount, turn):
-    """Where bodies are, and where at the end of the motion: body by body, and together."""
+    """Positions now and at the end of the motion: body by body, and joint."""
     here, there = bodies.steps[turn % 2], bodies.steps[1 - turn % 2]
     ends = None
     if kind == "swept":
         ends = there if amount == 1 else [a + amount * (b - a) for a, b in zip(here, there)]
-    together = [None if shape is None else numpy.asfortranarray(numpy.vstack(shape)) for shape in (here, ends)]
+    together = [
+        None if shape is None else numpy.asfortranarray(numpy.vstack(shape))
+        for shape in (here, ends)
+    ]
     return (here, ends), together
 
 
@@ -187,13 +207,19 @@ def compare(bodies, kind, amount, rounds):
             alone = numpy.setdiff1d(other, mine, assume_unique=True)
             largest = max(numpy.abs(shape).max() for shape in together if shape is not None)
             allowed = 2 * radius + ROUNDING * largest
-            errors += int((gaps(bodies, *together, alone, are_edges) > allowed).sum()) if len(alone) else 0
+            errors += (
+                int((gaps(bodies, *together, alone, are_edges) > allowed).sum())
+                if len(alone)
+                else 0
+            )
             more += len(alone)
     times = []
     for _ in range(rounds):
         pair = [0.0, 0.0]
         for separate, together in turns:
-            for which, ask in enumerate([lambda: ours.ask(*separate, radius), lambda: theirs.ask(*together, radius)]):
+            for which, ask in enumerate(
+                [lambda: ours.ask(*separate, radius), lambda: theirs.ask(*together, radius)]
+            ):
                 begin = time.perf_counter()
                 found = ask()
                 pair[which] += (time.perf_counter() - begin) / 2
@@ -204,32 +230,47 @@ def compare(bodies, kind, amount, rounds):
     what = f"{kind} {amount:g}"
     factor = f"{statistics.median(ratios):5.2f} ({min(ratios):.2f} to {max(ratios):.2f})"
     count = sum(counts) // 2
-    line = f"{bodies.name:<24} {what:<11} {count:>10,} {more:>7,} {errors:>7} {own:>9.2f} {other:>9.2f}   {factor}"
+    line = (
+        f"{bodies.name:<24} {what:<11} {count:>10,} {more:>7,} {errors:>7} {own:>9.2f}"
+        f" {other:>9.2f}   {factor}"
+    )
     print(line, flush=True)
     return errors
 
 
 def arguments_of(what, rounds):
     parser = argparse.ArgumentParser(description=what.split("\n")[0])
-    parser.add_argument("--exporter", type=pathlib.Path, default=CHECKOUT / "target/release/examples/write_obj")
+    parser.add_argument(
+        "--exporter", type=pathlib.Path, default=CHECKOUT / "target/release/examples/write_obj"
+    )
     parser.add_argument("--data", type=pathlib.Path, default=CHECKOUT.parent / "shared" / "data")
     parser.add_argument("--rounds", type=int, default=rounds)
     parser.add_argument("--only", default="", help="of what is compared, what has this in its name")
     arguments = parser.parse_args()
     ipctk.set_num_threads(1)
-    print(f"pliant {pliant.__version__} and ipctk {importlib.metadata.version('ipctk')}, one thread, {arguments.rounds} rounds\n")
+    print(
+        f"pliant {pliant.__version__} and ipctk {importlib.metadata.version('ipctk')}, one thread,"
+        f" {arguments.rounds} rounds\n"
+    )
     return arguments
 
 
 def all_bodies(arguments):
-    """Those of our scenes and the real meshes, one after the other."""
+    """All bodies of our scenes and the real meshes, one after the other."""
     with tempfile.TemporaryDirectory() as folder:
         makers = [
-            (f"{name} {triangles:,}", lambda of=(name, triangles, step): scene(arguments.exporter, pathlib.Path(folder), *of))
+            (
+                f"{name} {triangles:,}",
+                lambda of=(name, triangles, step): scene(
+                    arguments.exporter, pathlib.Path(folder), *of
+                ),
+            )
             for name, triangles, step in SCENES
         ]
         if arguments.data.is_dir():
-            makers += [(name, lambda of=(name, frame): real(arguments.data, *of)) for name, frame in REAL]
+            makers += [
+                (name, lambda of=(name, frame): real(arguments.data, *of)) for name, frame in REAL
+            ]
         else:
             print("no ../shared/data beside the checkout: real meshes skipped")
         for name, make in makers:
@@ -239,11 +280,17 @@ def all_bodies(arguments):
 
 def main():
     arguments = arguments_of(__doc__, 9)
-    print(f"{'':<24} {'':<11} {'candidates':>10} {'more':>7} {'errors':>7} {'ours, ms':>9} {'its, ms':>9}   times faster")
+    print(
+        f"{'':<24} {'':<11} {'candidates':>10} {'more':>7} {'errors':>7} {'ours, ms':>9}"
+        f" {'its, ms':>9}   times faster"
+    )
     errors = 0
     for bodies in all_bodies(arguments):
         errors += sum(compare(bodies, kind, amount, arguments.rounds) for kind, amount in CASES)
-    print(f"\nmore: candidates that ipctk has alone, within its rounding; errors, of any kind: {errors}")
+    print(
+        "\nmore: candidates that ipctk has alone, within its rounding; errors, of any kind:"
+        f" {errors}"
+    )
     return 1 if errors else 0
 
 

@@ -1,25 +1,28 @@
 #!/usr/bin/env python3
-"""A second opinion that nobody here wrote: libigl's exact predicates on the same meshes.
+"""Compares pairs with libigl's exact predicates on the same meshes: an independent second opinion.
 
     cargo build --release && cargo build --release -p pliant-scenes --example write_obj
     python3 -m venv target/libigl && target/libigl/bin/pip install libigl==2.6.3
     target/libigl/bin/python benchmarks/compare_with_libigl.py
 
-Every mesh goes through `pliant check --format json --no-weld` and through `igl.predicates.find_intersections` or
-`find_self_intersections`, from the same file; libigl reads it with its own reader. The two sets of pairs are compared. The two
-do not promise the same, so each pair that only one of them reports is looked at alone, in rational arithmetic, and must fall
-under one of these rules:
+Every mesh goes through `pliant check --format json --no-weld`, and through
+`igl.predicates.find_intersections` or `find_self_intersections`, from the same file. libigl uses
+its own reader. The two sets of pairs are compared. The two promise different things, so each pair
+that only one of them reports is decided alone, in rational arithmetic. It must fall under one of
+these rules:
 
-    neighbours   only libigl; the triangles share a vertex of the mesh. pliant leaves such pairs out, as documented; libigl
-                 reports those that it finds to meet beyond what they share.
-    degenerate   only libigl; one triangle is a segment or a point, and the two do NOT meet. libigl takes a triangle without
-                 a plane for coplanar with any other.
+    neighbours   Only libigl; the triangles share a vertex of the mesh. pliant leaves such pairs
+                 out, as documented. libigl reports pairs that meet beyond the shared vertices.
+    degenerate   Only libigl; one triangle is a segment or a point, and the two do NOT meet.
+                 libigl takes a triangle without a plane for coplanar with any other.
 
-Anything else, a pair that only pliant reports among it, is unexplained: it is printed, and the exit code is 1. The rational decision clips one triangle by the half-spaces of the other:
-no orientation signs, no case analysis, nothing in common with either library.
+Any other pair is unexplained, in particular one that only pliant reports: it is printed, and the
+exit code is 1. The rational decision clips one triangle by the half-spaces of the other: no
+orientation signs, no case analysis, nothing in common with either library.
 
-Meshes: the real ones of ../shared/data where it is there (it is skipped, saying so, where not), scenes of pliant-scenes, and
-soups on a small lattice, full of touching, coplanar, identical and degenerate triangles.
+Meshes are the real ones of ../shared/data, if that exists (otherwise the script says that they are
+skipped), and scenes of pliant-scenes. Soups on a small lattice are full of touching, coplanar,
+identical and degenerate triangles.
 """
 
 import argparse
@@ -40,7 +43,7 @@ import numpy
 CHECKOUT = pathlib.Path(__file__).resolve().parent.parent
 
 
-# --- The judge -------------------------------------------------------------------------------------------------------------
+# --- The judge -----------------------------------------------------------------------------------
 
 
 def minus(a, b):
@@ -65,7 +68,7 @@ def is_degenerate(triangle):
 
 
 def half_spaces(triangle):
-    """The hull of three points as (normal, offset): all points p with normal . p <= offset."""
+    """Hull of three points as half-spaces (normal, offset): all p with normal . p <= offset."""
 
     def slab(direction, points):
         along = [dot(direction, point) for point in points]
@@ -94,7 +97,7 @@ def half_spaces(triangle):
 
 
 def meet(a, b):
-    """Whether two triangles have a point in common, as closed sets, by clipping the first by the hull of the second."""
+    """Whether two closed triangles intersect, by clipping the first by the hull of the second."""
     polygon = list(a)
     for normal, offset in half_spaces(b):
         clipped = []
@@ -112,7 +115,7 @@ def meet(a, b):
 
 
 def the_judge_knows_what_is_plain():
-    """A judge that is wrong would explain anything."""
+    """Tests the judge on plain cases: a wrong judge would explain anything."""
     F = fractions.Fraction
     exact = lambda points: [tuple(F(x) for x in point) for point in points]
     flat = exact([(0, 0, 0), (4, 0, 0), (0, 4, 0)])
@@ -135,7 +138,7 @@ def the_judge_knows_what_is_plain():
     assert meet(x, y) and not meet(x, exact([(0, -1, 1), (0, 1, 1), (0, 0, 1)]))
 
 
-# --- The two opinions ------------------------------------------------------------------------------------------------------
+# --- The two opinions ----------------------------------------------------------------------------
 
 
 class Mesh:
@@ -146,12 +149,17 @@ class Mesh:
         self.faces = numpy.ascontiguousarray(faces, dtype=numpy.int64)
 
     def corners(self, triangle):
-        """The triangle in rational numbers."""
-        return [tuple(fractions.Fraction(float(x)) for x in self.vertices[v]) for v in self.faces[triangle]]
+        """Corners of a triangle, as rational numbers."""
+        return [
+            tuple(fractions.Fraction(float(x)) for x in self.vertices[v])
+            for v in self.faces[triangle]
+        ]
 
 
 def pliant_says(program, meshes):
-    command = [str(program), "check", "--format", "json", "--no-weld"] + [str(mesh.path) for mesh in meshes]
+    command = [str(program), "check", "--format", "json", "--no-weld"] + [
+        str(mesh.path) for mesh in meshes
+    ]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode not in (0, 1):
         sys.exit(f"pliant check: {done.stderr.strip()}")
@@ -180,7 +188,7 @@ def libigl_says(meshes):
 
 
 def explain(meshes, pair, only_pliant):
-    """The rule that a difference falls under, or None."""
+    """Rule that explains a difference, or None."""
     a, i, b, j = pair
     if only_pliant:
         return None
@@ -197,7 +205,9 @@ class Comparison:
         self.program = program
         self.rules = collections.Counter()
         self.compared = self.agreed = self.unexplained = 0
-        print(f"{'meshes':<62} {'triangles':>9} {'pliant':>7} {'libigl':>7} {'both':>7}   differences")
+        print(
+            f"{'meshes':<62} {'triangles':>9} {'pliant':>7} {'libigl':>7} {'both':>7}   differences"
+        )
 
     def of(self, name, paths):
         meshes = [Mesh(path) for path in paths]
@@ -208,18 +218,25 @@ class Comparison:
             rules[rule or "UNEXPLAINED"] += 1
             if rule is None:
                 who = "pliant" if pair in ours else "libigl"
-                corners = [meshes[body].vertices[meshes[body].faces[t]].tolist() for body, t in (pair[:2], pair[2:])]
+                corners = [
+                    meshes[body].vertices[meshes[body].faces[t]].tolist()
+                    for body, t in (pair[:2], pair[2:])
+                ]
                 print(f"  only {who}: {pair}", *corners)
         told = ", ".join(f"{count:,} {rule}" for rule, count in sorted(rules.items())) or "none"
         triangles = sum(len(mesh.faces) for mesh in meshes)
-        print(f"{name:<62} {triangles:>9,} {len(ours):>7,} {len(theirs):>7,} {len(ours & theirs):>7,}   {told}", flush=True)
+        print(
+            f"{name:<62} {triangles:>9,} {len(ours):>7,} {len(theirs):>7,} {len(ours & theirs):>7,}"
+            f"   {told}",
+            flush=True,
+        )
         self.unexplained += rules.pop("UNEXPLAINED", 0)
         self.rules += rules
         self.compared += 1
         self.agreed += len(ours & theirs)
 
 
-# --- The meshes ------------------------------------------------------------------------------------------------------------
+# --- The meshes ----------------------------------------------------------------------------------
 
 
 def write_obj(path, vertices, faces):
@@ -233,14 +250,25 @@ def real_meshes(compare, data, folder):
     for path in sorted(data.glob("**/*.ply")):
         compare.of(f"{path.relative_to(data)}, itself", [path])
     ipc = data / "ipc-toolkit"
-    compare.of("two-cubes-intersecting and cube", [ipc / "two-cubes-intersecting.ply", ipc / "cube.ply"])
-    for pair in ["cloth-funnel/227 228", "armadillo-rollers/326 327", "ipc-toolkit/thick-cloth/t0 t1"]:
+    compare.of(
+        "two-cubes-intersecting and cube", [ipc / "two-cubes-intersecting.ply", ipc / "cube.ply"]
+    )
+    for pair in [
+        "cloth-funnel/227 228",
+        "armadillo-rollers/326 327",
+        "ipc-toolkit/thick-cloth/t0 t1",
+    ]:
         place, frames = pair.rsplit("/", 1)
-        compare.of(f"{place}, a frame and the next", [data / place / f"{frame}.ply" for frame in frames.split()])
+        compare.of(
+            f"{place}, a frame and the next",
+            [data / place / f"{frame}.ply" for frame in frames.split()],
+        )
     morph = numpy.load(data / "human-morph.npz")
     paths = []
     for frame in (0, 15, 30, 45, 50, 59):
-        paths.append(write_obj(folder / f"human-{frame}.obj", morph["vertices"][frame], morph["faces"]))
+        paths.append(
+            write_obj(folder / f"human-{frame}.obj", morph["vertices"][frame], morph["faces"])
+        )
         compare.of(f"human-morph frame {frame}, itself", paths[-1:])
     compare.of("human-morph, frames 0 and 30", [paths[0], paths[2]])
 
@@ -266,7 +294,7 @@ def scenes(compare, exporter, folder):
 
 
 def soups(compare, folder):
-    """Few places, many triangles: coincidences of every kind."""
+    """Triangle soups on few places: coincidences of every kind."""
     for seed, side, count, proper, scale in [
         (1, 3, 300, True, 1.0),
         (2, 3, 300, False, 1.0),
@@ -288,7 +316,7 @@ def soups(compare, folder):
         kind = "proper triangles" if proper else "some degenerate"
         where = f"{side}^3 lattice of {scale:g}"
         compare.of(f"soup, {where}, {kind}, itself", [soup])
-        # The same places as one mesh with shared vertices.
+        # One mesh on the same places, with shared vertices.
         places = sorted({tuple(vertex) for vertex in vertices})
         number = {place: i for i, place in enumerate(places)}
         shared = [[number[tuple(vertices[v])] for v in face] for face in faces]
@@ -307,7 +335,9 @@ def main():
     arguments = parser.parse_args()
 
     the_judge_knows_what_is_plain()
-    version = subprocess.run([str(arguments.program), "--version"], capture_output=True, text=True, check=True).stdout.strip()
+    version = subprocess.run(
+        [str(arguments.program), "--version"], capture_output=True, text=True, check=True
+    ).stdout.strip()
     print(f"{version} and libigl {importlib.metadata.version('libigl')}\n")
     compare = Comparison(arguments.program)
     with tempfile.TemporaryDirectory() as folder:

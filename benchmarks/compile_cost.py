@@ -1,19 +1,23 @@
 #!/usr/bin/env python3
-"""What the library costs those who compile it, in seconds of processor time (user and system, of all processes), which does not
-depend on what else the machine does. Fails if an aim is missed.
+"""Measures the cost of compiling the library, in processor time. Fails if an aim is missed.
 
-    benchmarks/compile_cost.py simulator                  a simulator's debug build against its release build
-    benchmarks/compile_cost.py rebuild                    a six-line program, compiled again after one changed line
-    benchmarks/compile_cost.py tests [--before COMMIT]    `cargo test --workspace` from nothing, compiling and running
+Processor time is user and system time of all processes. It does not depend on other work of the
+machine.
+
+    benchmarks/compile_cost.py simulator                  a simulator's debug build, against release
+    benchmarks/compile_cost.py rebuild                    a six-line program, after a changed line
+    benchmarks/compile_cost.py tests [--before COMMIT]    `cargo test --workspace` from nothing
     benchmarks/compile_cost.py size [--before COMMIT]     the program, as built and stripped
-    benchmarks/compile_cost.py table [--before COMMIT]    what there is to compile of the library and the program, and how long it takes
+    benchmarks/compile_cost.py table [--before COMMIT]    amount of code, and times to compile it
     benchmarks/compile_cost.py all [--before COMMIT]
 
-`tests` and `size` have an aim only beside an earlier commit, which is then taken out of git and measured in the same way: minutes.
-`table` has none. Its code lines are those of crates/pliant/src and, where there is one, crates/pliant-exact/src, without blank lines,
-comments and what only tests compile; its lines of LLVM are those that `cargo llvm-lines` counts: of functions, before any optimisation.
-`--exclude PACKAGE` leaves a package of the workspace out of the tests, of both. Everything is made in a temporary folder, which goes
-away; nothing in the checkout's target folder is used or changed. Needs Python 3.10, cargo, on a system with getrusage; and git.
+`tests` and `size` have an aim only beside an earlier commit, which is taken out of git and
+measured in the same way: minutes. `table` has no aim. It counts lines of code in crates/pliant/src
+and, if it exists, crates/pliant-exact/src, without blank lines, comments and code for tests. Lines
+of LLVM are counted as `cargo llvm-lines` does: of functions, before any optimisation.
+`--exclude PACKAGE` leaves a package of the workspace out of both runs of the tests. All files are
+made in a temporary folder, which is removed; the checkout's target folder is neither used nor
+changed. Needs Python 3.10, cargo and git, on a system with getrusage.
 """
 
 import argparse
@@ -29,7 +33,7 @@ from pathlib import Path
 
 CHECKOUT = Path(__file__).resolve().parent.parent
 
-# What is measured is at most so many times what it is compared with, or so many seconds.
+# Aims: largest ratio to the compared figure, or largest number of seconds.
 SIMULATOR_AT_MOST = 1.3
 REBUILD_AT_MOST = 1.0
 TESTS_AT_MOST = 0.4
@@ -47,7 +51,8 @@ fn triangles() -> Vec<[u32; 3]> {
     squares.flat_map(|at| [[at, at + 1, at + row], [at + row, at + 1, at + row + 1]]).collect()
 }
 
-/// Waves that run slantwise, in two sheets that are not exactly above each other: no exact contact, which few simulations have.
+/// Waves that run slantwise, in two sheets that are not exactly above each other.
+/// So there is no exact contact, which few simulations have.
 fn wave(positions: &mut [[f32; 3]], height: f32, phase: f32) {
     for (y, row) in positions.chunks_exact_mut(SIDE + 1).enumerate() {
         for (x, position) in row.iter_mut().enumerate() {
@@ -59,7 +64,7 @@ fn wave(positions: &mut [[f32; 3]], height: f32, phase: f32) {
 }
 
 fn main() {
-    // With "alone" the simulator moves its sheets and asks nothing: what is not the library's.
+    // With "alone" the simulator moves its sheets and asks nothing: the time without the library.
     let alone = std::env::args().any(|argument| argument == "alone");
     let mut world = World::<f32>::new();
     let mut positions = [(); 2].map(|()| vec![[0.0; 3]; (SIDE + 1) * (SIDE + 1)]);
@@ -98,37 +103,48 @@ failed = []
 
 
 def check(what, found, most, unit):
-    """Prints a figure beside its aim, and notes it if it is missed."""
+    """Prints a figure beside its aim, and records a missed aim."""
     missed = found > most
-    print(f"    {what}: {found:.3g}{unit}, aim at most {most:g}{unit}{': MISSED' if missed else ''}", flush=True)
+    print(
+        f"    {what}: {found:.3g}{unit}, aim at most {most:g}{unit}{': MISSED' if missed else ''}",
+        flush=True,
+    )
     if missed:
         failed.append(what)
 
 
 def run(command, folder, target=None, with_errors=False):
-    """Processor time of a command and of everything that it starts, and what it printed. Ends the script if the command fails."""
+    """Processor time of a command and all its children, and its output. Exits if it fails."""
     environment = dict(os.environ)
     if target:
         environment["CARGO_TARGET_DIR"] = str(target)
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(
-        [str(part) for part in command], cwd=folder, env=environment, capture_output=True, text=True, check=False
+        [str(part) for part in command],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
     )
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))} failed:\n{done.stdout[-4000:]}\n{done.stderr[-4000:]}")
+        sys.exit(
+            f"{' '.join(map(str, command))} failed:\n{done.stdout[-4000:]}\n{done.stderr[-4000:]}"
+        )
     seconds = (after.ru_utime - before.ru_utime) + (after.ru_stime - before.ru_stime)
     return seconds, done.stdout + (done.stderr if with_errors else "")
 
 
 def make_crate(folder, name, main, profiles=""):
-    """A crate of its own that uses the library of this checkout, in the versions that the checkout has locked."""
+    """Makes a crate that uses the library of this checkout, with the checkout's locked versions."""
     (folder / "src").mkdir(parents=True)
     (folder / "src/main.rs").write_text(main)
-    # Its own workspace, should the temporary folder be inside another.
+    # A workspace of its own, in case the temporary folder is inside another.
     (folder / "Cargo.toml").write_text(
-        f'[package]\nname = "{name}"\nversion = "0.0.0"\nedition = "2024"\n\n[workspace]\n\n'
-        f'[dependencies]\npliant = {{ path = "{(CHECKOUT / "crates/pliant").as_posix()}" }}\n{profiles}'
+        f'[package]\nname = "{name}"\nversion = "0.0.0"\nedition ='
+        ' "2024"\n\n[workspace]\n\n[dependencies]\npliant = { path ='
+        f' "{(CHECKOUT / "crates/pliant").as_posix()}" }}\n{profiles}'
     )
     shutil.copy(CHECKOUT / "Cargo.lock", folder / "Cargo.lock")
     return folder
@@ -148,15 +164,17 @@ debug-assertions = false
 
 
 def simulator(temporary, _):
-    """The builds take turns. In debug, dependencies are optimised as Bevy's book tells its readers to do."""
+    """Builds in turns. In debug, dependencies are optimised as in the Bevy book."""
     crate = make_crate(temporary / "simulator", "simulator", SIMULATOR, PROFILES)
     target = temporary / "simulator-target"
-    # What comes from a registry is never compiled incrementally; what comes from a path is, unless this is said.
+    # A crate from a path is compiled incrementally by default, a crate from a registry never.
     os.environ["CARGO_INCREMENTAL"] = "0"
     builds = {"release": "release", "dev": "debug", "unchecked": "unchecked"}
     compiled, times, alone, printed = {}, {}, {}, set()
     for profile in builds:
-        compiled[profile] = run(["cargo", "build", "--quiet", "--profile", profile], crate, target)[0]
+        compiled[profile] = run(["cargo", "build", "--quiet", "--profile", profile], crate, target)[
+            0
+        ]
     del os.environ["CARGO_INCREMENTAL"]
     for _ in range(15):
         for profile, folder in builds.items():
@@ -170,8 +188,9 @@ def simulator(temporary, _):
     print(f"simulator: two sheets of 20,000 triangles, 60 steps, {printed.pop().strip()} pairs")
     for profile in builds:
         print(
-            f"    {profile}: {statistics.median(times[profile]):.3f} s, of which without a step's positions and queries "
-            f"{statistics.median(alone[profile]):.3f} s; compiled in {compiled[profile]:.1f} s"
+            f"    {profile}: {statistics.median(times[profile]):.3f} s, of which without a step's"
+            f" positions and queries {statistics.median(alone[profile]):.3f} s; compiled in"
+            f" {compiled[profile]:.1f} s"
         )
     medians = {profile: statistics.median(times[profile]) for profile in builds}
     without = medians["unchecked"] / medians["release"]
@@ -192,14 +211,14 @@ def rebuild(temporary, _):
 
 
 def taken_out(commit, temporary):
-    """A commit's files, in a folder of their own."""
+    """Checks a commit out into a folder of its own."""
     folder = temporary / "before"
     if not folder.exists():
         folder.mkdir()
         archive = temporary / "before.tar"
         run(["git", "archive", "--output", archive, commit], CHECKOUT)
         shutil.unpack_archive(archive, folder)
-        # What tests read beside the checkout they read beside the earlier commit too.
+        # Data that tests read beside the checkout is also beside the earlier commit.
         if (CHECKOUT.parent / "shared").exists():
             (temporary / "shared").symlink_to(CHECKOUT.parent / "shared")
     return folder
@@ -214,7 +233,11 @@ def tests(temporary, arguments):
         compiling, _ = run([*command, "--no-run"], folder, target)
         running, _ = run(command, folder, target)
         shutil.rmtree(target)
-        print(f"    {name}: {compiling + running:.0f} s; compiling all but doctests {compiling:.0f} s", flush=True)
+        print(
+            f"    {name}: {compiling + running:.0f} s; compiling all but doctests"
+            f" {compiling:.0f} s",
+            flush=True,
+        )
         return compiling + running
 
     print("tests: `cargo test --workspace` from nothing", flush=True)
@@ -236,7 +259,10 @@ def size(temporary, arguments):
             sizes.append(program.stat().st_size)
         shutil.rmtree(target)
         stripped = f", stripped {sizes[1]:,} bytes" if len(sizes) == 2 else ""
-        print(f"    {name}: as built {sizes[0]:,} bytes{stripped}; compiled in {compiled:.0f} s", flush=True)
+        print(
+            f"    {name}: as built {sizes[0]:,} bytes{stripped}; compiled in {compiled:.0f} s",
+            flush=True,
+        )
         return sizes
 
     print("size: the program `pliant`, in release", flush=True)
@@ -247,20 +273,27 @@ def size(temporary, arguments):
             check(f"{what} against {arguments.before}", new / old, SIZE_AT_MOST, "")
 
 
-# What is no code though it may look like it: comments, strings, characters. Those of several lines go on over them.
+# Text that only looks like code: comments, strings, characters, also over several lines.
 NO_CODE = re.compile(
-    r"""//[^\n]* | /\*.*?\*/ | r(\#*)".*?"\1 | "(?:\\.|[^"\\])*" | '(?:\\[^']*'|[^'\\]') """, re.DOTALL | re.VERBOSE
+    r"""//[^\n]* | /\*.*?\*/ | r(\#*)".*?"\1 | "(?:\\.|[^"\\])*" | '(?:\\[^']*'|[^'\\]') """,
+    re.DOTALL | re.VERBOSE,
 )
 
 
 def only_code(text):
-    """Code with its comments blank, and something plain for each string and character."""
-    return NO_CODE.sub(lambda it: re.sub(r"[^\n]", " " if it[0].startswith(("//", "/*")) else "_", it[0]), text)
+    """Code with blanks in place of comments, and underscores for strings and characters."""
+    return NO_CODE.sub(
+        lambda it: re.sub(r"[^\n]", " " if it[0].startswith(("//", "/*")) else "_", it[0]), text
+    )
 
 
 def end_of_item(code, at):
-    """Where an item, a field or a variant ends: behind its braces, or at the end of its line of code."""
-    ends = ";" if re.match(r"\s*(pub(\([^)]*\))?\s+)?(const|fn|mod|static|type|unsafe|use)\b", code[at:]) else ";,"
+    """End of an item, a field or a variant: behind its braces, or the end of its line."""
+    ends = (
+        ";"
+        if re.match(r"\s*(pub(\([^)]*\))?\s+)?(const|fn|mod|static|type|unsafe|use)\b", code[at:])
+        else ";,"
+    )
     depth = 0
     for place in range(at, len(code)):
         depth += (code[place] in "([{") - (code[place] in ")]}")
@@ -270,7 +303,7 @@ def end_of_item(code, at):
 
 
 def sources(folder):
-    """Code of every file below a folder, without what only tests compile."""
+    """Code of every file below a folder, without code for tests."""
     found, for_tests = {}, set()
     for path in sorted(folder.rglob("*.rs")):
         code = only_code(path.read_text())
@@ -281,25 +314,48 @@ def sources(folder):
                 for_tests.add(inside / module[1])
             code = code[:at] + code[end:]
         found[path] = code
-    is_for_tests = lambda path: any(module in [path.with_suffix(""), *path.parents] for module in for_tests)
+    is_for_tests = lambda path: any(
+        module in [path.with_suffix(""), *path.parents] for module in for_tests
+    )
     return [code for path, code in found.items() if not is_for_tests(path)]
 
 
 def table(temporary, arguments):
     def measure(name, folder):
         target = temporary / f"table-target-{name}"
-        engine = [code for crate in ("pliant", "pliant-exact") for code in sources(folder / "crates" / crate / "src")]
-        figures = {"code lines of the engine": sum(1 for code in engine for line in code.splitlines() if line.strip())}
-        functions = (code[it.start() : end_of_item(code, it.start())] for code in engine for it in re.finditer(r"\bfn \w", code))
-        figures["functions over 70 lines"] = sum(function.count("\n") >= 70 for function in functions)
+        engine = [
+            code
+            for crate in ("pliant", "pliant-exact")
+            for code in sources(folder / "crates" / crate / "src")
+        ]
+        figures = {
+            "code lines of the engine": sum(
+                1 for code in engine for line in code.splitlines() if line.strip()
+            )
+        }
+        functions = (
+            code[it.start() : end_of_item(code, it.start())]
+            for code in engine
+            for it in re.finditer(r"\bfn \w", code)
+        )
+        figures["functions over 70 lines"] = sum(
+            function.count("\n") >= 70 for function in functions
+        )
 
         def build(what, *options):
-            seconds, said = run(["cargo", "build", "--release", *options], folder, target, with_errors=True)
+            seconds, said = run(
+                ["cargo", "build", "--release", *options], folder, target, with_errors=True
+            )
             figures[f"{what}: seconds"] = round(seconds)
             figures[f"{what}: crates"] = len(re.findall(r"^ *Compiling ", said, re.MULTILINE))
 
         build("cargo build --release -p pliant", "-p", "pliant")
-        llvm = ["--emit=llvm-ir", "-Cno-prepopulate-passes", "-Cpasses=name-anon-globals", "-Ccodegen-units=1"]
+        llvm = [
+            "--emit=llvm-ir",
+            "-Cno-prepopulate-passes",
+            "-Cpasses=name-anon-globals",
+            "-Ccodegen-units=1",
+        ]
         run(["cargo", "rustc", "-p", "pliant", "--lib", "--release", "--", *llvm], folder, target)
         lines = copies = 0
         is_inside = False
@@ -312,7 +368,14 @@ def table(temporary, arguments):
                         is_inside = line != "}\n"
         figures |= {"compiled copies of `descend`": copies, "lines of LLVM of the library": lines}
         shutil.rmtree(target)
-        build("cargo build --release", *([] if "default-members" in (folder / "Cargo.toml").read_text() else ["-p", "pliant-cli"]))
+        build(
+            "cargo build --release",
+            *(
+                []
+                if "default-members" in (folder / "Cargo.toml").read_text()
+                else ["-p", "pliant-cli"]
+            ),
+        )
         program = target / "release/pliant"
         if shutil.which("strip"):
             run(["strip", program], folder)
@@ -320,7 +383,9 @@ def table(temporary, arguments):
         shutil.rmtree(target)
         return figures
 
-    print("table: what there is to compile; seconds are of processor time, from nothing", flush=True)
+    print(
+        "table: what there is to compile; seconds are of processor time, from nothing", flush=True
+    )
     now = measure("now", CHECKOUT)
     before = measure("before", taken_out(arguments.before, temporary)) if arguments.before else {}
     for what, figure in now.items():
@@ -332,10 +397,14 @@ COSTS = {"simulator": simulator, "rebuild": rebuild, "tests": tests, "size": siz
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("cost", choices=[*COSTS, "all"])
     parser.add_argument("--before", metavar="COMMIT", help="measure this commit too, and compare")
-    parser.add_argument("--exclude", metavar="PACKAGE", action="append", default=[], help="not tested")
+    parser.add_argument(
+        "--exclude", metavar="PACKAGE", action="append", default=[], help="not tested"
+    )
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="pliant-compile-cost-") as temporary:
         for name, cost in COSTS.items():

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Where a step goes: instructions, and time, by phase and by unit of work.
+"""Profiles a step: instructions and time, by phase and by unit of work.
 
     cargo build --release -p pliant-bench --example windows
     python3 benchmarks/profile.py target/release/examples/windows hard [ROUNDS]
 
-Instructions are counted by callgrind (valgrind), time by sampling (perf, where it is installed), both put down to phases by the
-functions that are inlined at each address (addr2line). A window of the example is played; it prints its own time and work.
+callgrind (valgrind) counts instructions; perf samples time, where it is installed. Both are
+attributed to phases by the functions inlined at each address (addr2line). The example plays one
+window, and prints its own time and work.
 """
 
 import collections
@@ -15,13 +16,24 @@ import subprocess
 import sys
 import tempfile
 
-# Phase, functions whose inlined code is the phase's (the first phase that has one of them wins), unit of work.
+# Phase, functions whose inlined code belongs to it (the first phase with one wins), unit of work.
 PHASES = [
     ("planes of candidates", ["by_planes"], "candidate_pairs"),
     ("lines of candidates", ["by_lines", "narrow_phase::intersect"], "pairs"),
     ("triangle boxes compared", ["of_two", "of_itself", "Meet::meet"], "candidate_pairs"),
     ("node boxes compared", ["expand", "overlap_mask"], "node_pairs"),
-    ("boxes made", ["make_block", "reach_leaves", "make_group_true", "make_groups", "merge_groups", "make_levels"], "boxes"),
+    (
+        "boxes made",
+        [
+            "make_block",
+            "reach_leaves",
+            "make_group_true",
+            "make_groups",
+            "merge_groups",
+            "make_levels",
+        ],
+        "boxes",
+    ),
     ("positions checked and copied", ["take_over"], "steps"),
     ("positions into tree order", ["bring_into_order", "gather"], "steps"),
     ("what is reached", ["reach", "Noted", "descend", "asks_for_untrue", "Branch"], "node_pairs"),
@@ -37,22 +49,36 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         said = run([program, window, "--rounds", rounds])
         milliseconds = float(re.search(r"([0-9.]+) ms a step", said).group(1))
-        work = {name: int(count) for name, count in re.findall(r"(\w+): (\d+)", said.split("a step: ")[1])}
+        work = {
+            name: int(count)
+            for name, count in re.findall(r"(\w+): (\d+)", said.split("a step: ")[1])
+        }
         steps = int(re.search(r"/ (\d+)", said).group(1))
         work["steps"] = steps
         work["boxes"] = work["boxes_bottom_up"] + work["boxes_top_down"] + work["triangle_boxes"]
         instructions = by_phase(program, counted(program, window, folder))
-        samples = by_phase(program, sampled(program, window, rounds, folder)) if shutil.which("perf") else {}
+        samples = (
+            by_phase(program, sampled(program, window, rounds, folder))
+            if shutil.which("perf")
+            else {}
+        )
 
-    print(f"{window}: {milliseconds:.4f} ms a step, {sum(instructions.values()) / steps:,.0f} instructions")
+    print(
+        f"{window}: {milliseconds:.4f} ms a step, {sum(instructions.values()) / steps:,.0f}"
+        " instructions"
+    )
     print(f"{'phase':30}{'share':>8}{'unit':>18}{'units':>10}{'instructions':>14}{'ns a unit':>11}")
     for phase, _, unit in PHASES + [("other", [], "steps")]:
         units = work[unit]
         share = samples.get(phase, 0) / max(1, sum(samples.values()))
-        nanoseconds = f"{share * milliseconds * 1e6 * steps / max(1, units):.1f}" if samples else "-"
+        nanoseconds = (
+            f"{share * milliseconds * 1e6 * steps / max(1, units):.1f}" if samples else "-"
+        )
         shown = f"{100 * share:.0f} %" if samples else "-"
         count = instructions.get(phase, 0) / max(1, units)
-        print(f"{phase:30}{shown:>8}{unit:>18}{units // steps:>10,}{count:>14,.0f}{nanoseconds:>11}")
+        print(
+            f"{phase:30}{shown:>8}{unit:>18}{units // steps:>10,}{count:>14,.0f}{nanoseconds:>11}"
+        )
 
 
 def run(command):
@@ -65,8 +91,21 @@ def run(command):
 def counted(program, window, folder):
     """Instructions at every address of the program, between the positions and the answer."""
     file = f"{folder}/callgrind"
-    run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={file}", "--dump-instr=yes", "--compress-pos=no",
-         "--compress-strings=no", "--toggle-collect=windows::one_step", program, window, "--rounds", "1"])
+    run(
+        [
+            "valgrind",
+            "--tool=callgrind",
+            f"--callgrind-out-file={file}",
+            "--dump-instr=yes",
+            "--compress-pos=no",
+            "--compress-strings=no",
+            "--toggle-collect=windows::one_step",
+            program,
+            window,
+            "--rounds",
+            "1",
+        ]
+    )
     counts = collections.Counter()
     inherited = False
     with open(file, encoding="utf-8") as lines:
@@ -90,7 +129,9 @@ def sampled(program, window, rounds, folder):
     counts = collections.Counter()
     base = None
     for line in said.splitlines():
-        mapped = re.search(r"\[0x([0-9a-f]+)\(0x([0-9a-f]+)\) @ (?:0x)?([0-9a-f]+) .*r-xp (.*)", line)
+        mapped = re.search(
+            r"\[0x([0-9a-f]+)\(0x([0-9a-f]+)\) @ (?:0x)?([0-9a-f]+) .*r-xp (.*)", line
+        )
         if mapped:
             if mapped.group(4).endswith(program.split("/")[-1]):
                 start, size, offset = (int(mapped.group(place), 16) for place in (1, 2, 3))
@@ -105,20 +146,32 @@ def sampled(program, window, rounds, folder):
 
 
 def by_phase(program, counts):
-    """Counts put down to phases; code of nobody here (the scene, the example) is left out."""
+    """Counts by phase, without code of no phase (the scene, the example)."""
     addresses = list(counts)
     best = {}
-    # Under valgrind a program lies where it likes; without, addresses are those of the file.
+    # Under valgrind a program has another base address; otherwise addresses are as in the file.
     for shift in (0, 0x108000, 0x400000):
         asked = "\n".join(hex(address - shift) for address in addresses if address >= shift)
-        said = subprocess.run(["addr2line", "-e", program, "-f", "-i", "-C", "-a"],
-                              input=asked, capture_output=True, text=True, check=True).stdout
+        said = subprocess.run(
+            ["addr2line", "-e", program, "-f", "-i", "-C", "-a"],
+            input=asked,
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
         frames = re.split(r"^0x[0-9a-f]+$", said, flags=re.M)[1:]
         found = collections.Counter()
         for address, names in zip((address for address in addresses if address >= shift), frames):
             if "pliant_scenes" in names or "pliant_bench" in names:
                 continue
-            phase = next((phase for phase, functions, _ in PHASES if any(name in names for name in functions)), None)
+            phase = next(
+                (
+                    phase
+                    for phase, functions, _ in PHASES
+                    if any(name in names for name in functions)
+                ),
+                None,
+            )
             if phase or "pliant" in names:
                 found[phase or "other"] += counts[address]
         if sum(found.values()) > sum(best.values()):

@@ -1,11 +1,12 @@
-"""A second opinion on `pliant check --hits`: VTK, which ParaView is built on, and meshio read what it writes.
+"""Reads the files of `pliant check --hits` with VTK, on which ParaView is built, and with meshio.
 
     python -m venv target/vtk && target/vtk/bin/pip install vtk meshio numpy
     cargo build --release
     target/vtk/bin/python benchmarks/read_hits.py target/release/pliant BODY...
 
-Checks the bodies three times, for JSON, for .vtp and for .vtu, and compares frame by frame: cells, their bodies, triangles and
-partners against the pairs; points of the two readers against each other. Fails at the first difference.
+Checks the bodies three times, for JSON, for .vtp and for .vtu, and compares frame by frame. Cells,
+with their bodies, triangles and partners, are compared with the pairs; points of the two readers
+with each other. Fails at the first difference.
 """
 
 from __future__ import annotations
@@ -24,12 +25,14 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridRead
 
 
 def expected(pairs: list[list[int]]) -> list[tuple[int, int, int]]:
-    partners = Counter((body, triangle) for a, t, b, u in pairs for body, triangle in ((a, t), (b, u)))
+    partners = Counter(
+        (body, triangle) for a, t, b, u in pairs for body, triangle in ((a, t), (b, u))
+    )
     return [(body, triangle, count) for (body, triangle), count in sorted(partners.items())]
 
 
 def by_vtk(path: Path) -> tuple[list[tuple[int, int, int]], np.ndarray]:
-    """Cells, and their corners (cells, 3, 3)."""
+    """Cells, and the positions of their corners (cells, 3, 3)."""
     reader = vtkXMLPolyDataReader() if path.suffix == ".vtp" else vtkXMLUnstructuredGridReader()
     problems: list[str] = []
     reader.AddObserver("ErrorEvent", lambda *_: problems.append("error"))
@@ -41,11 +44,16 @@ def by_vtk(path: Path) -> tuple[list[tuple[int, int, int]], np.ndarray]:
     assert len(time) == 1
     if data.GetNumberOfCells() == 0:
         return [], np.zeros((0, 3, 3))
-    arrays = [vtk_to_numpy(data.GetCellData().GetArray(name)) for name in ("body", "triangle", "partners")]
+    arrays = [
+        vtk_to_numpy(data.GetCellData().GetArray(name)) for name in ("body", "triangle", "partners")
+    ]
     cells = data.GetPolys() if path.suffix == ".vtp" else data.GetCells()
     corners = vtk_to_numpy(cells.GetConnectivityArray()).reshape(-1, 3)
     assert all(data.GetCellType(cell) == 5 for cell in range(data.GetNumberOfCells()))
-    return list(zip(*(array.tolist() for array in arrays))), vtk_to_numpy(data.GetPoints().GetData())[corners]
+    return (
+        list(zip(*(array.tolist() for array in arrays))),
+        vtk_to_numpy(data.GetPoints().GetData())[corners],
+    )
 
 
 def by_meshio(path: Path) -> tuple[list[tuple[int, int, int]], np.ndarray]:
@@ -59,7 +67,14 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         runs = [["--hits", str(folder / "hits.vtp")], ["--hits", str(folder / "hits.vtu")]]
-        said = [json.loads(subprocess.run([program, "check", "--format", "json", *run, *bodies], capture_output=True).stdout) for run in runs]
+        said = [
+            json.loads(
+                subprocess.run(
+                    [program, "check", "--format", "json", *run, *bodies], capture_output=True
+                ).stdout
+            )
+            for run in runs
+        ]
         frames = said[0]["frames"]
         assert frames == said[1]["frames"]
         total = 0

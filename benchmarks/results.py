@@ -1,19 +1,24 @@
 #!/usr/bin/env python3
-"""Writes RESULTS.md, and the table of the README, from a record of `pliant bench all`: no figure in them is written by hand. What is
-near, what is close, when things meet and meshes that change have records of their own, of which the newest are taken, `near-DATE.json`,
-`close-DATE.json`, `when-DATE.json` and `change-DATE.json`, and what the comparisons with other libraries printed.
+"""Writes RESULTS.md and the table of the README from records: no figure in them is written by hand.
 
-cargo run --release --features peers -- bench all --json benchmarks/records/DATE.json > benchmarks/records/DATE.txt
-cargo run --release --features peers -- bench near --json benchmarks/records/near-DATE.json > benchmarks/records/near-DATE.txt
-target/ipctk/bin/python benchmarks/compare_with_ipctk.py > benchmarks/records/ipctk-DATE.txt
-cargo run --release --features peers -- bench when --json benchmarks/records/when-DATE.json > benchmarks/records/when-DATE.txt
-target/ipctk/bin/python benchmarks/compare_impacts_with_ipctk.py > benchmarks/records/impacts-ipctk-DATE.txt
-cargo run --release --features peers -- bench close --json benchmarks/records/close-DATE.json > benchmarks/records/close-DATE.txt
-target/ipctk/bin/python benchmarks/compare_close_with_ipctk.py > benchmarks/records/close-ipctk-DATE.txt
-target/ipctk/bin/python benchmarks/compare_distance_with_fcl.py > benchmarks/records/close-fcl-DATE.txt
-cargo run --release --features peers -- bench change --rounds 1 --json benchmarks/records/change-DATE.json > benchmarks/records/change-DATE.txt
-cargo run --release -p pliant-bench --features peers --example edits > benchmarks/records/edits-DATE.txt
-python3 benchmarks/results.py DATE
+The main record is of `pliant bench all`. The experiments `near`, `close`, `when` and `change`, and
+comparisons with other libraries, have records of their own; the newest of each is taken. `DATE`
+stands for the date in names of records:
+
+    B="cargo run --release --features peers -- bench"
+    cd benchmarks/records
+    $B all --json DATE.json > DATE.txt
+    $B near --json near-DATE.json > near-DATE.txt
+    $B when --json when-DATE.json > when-DATE.txt
+    $B close --json close-DATE.json > close-DATE.txt
+    $B change --rounds 1 --json change-DATE.json > change-DATE.txt
+    P=../../target/ipctk/bin/python
+    $P ../compare_with_ipctk.py > ipctk-DATE.txt
+    $P ../compare_impacts_with_ipctk.py > impacts-ipctk-DATE.txt
+    $P ../compare_close_with_ipctk.py > close-ipctk-DATE.txt
+    $P ../compare_distance_with_fcl.py > close-fcl-DATE.txt
+    cargo run --release -p pliant-bench --features peers --example edits > edits-DATE.txt
+    python3 ../results.py DATE
 """
 
 import json
@@ -35,8 +40,12 @@ PLIANT, HYBRID, TOP_DOWN, BOTTOM_UP = (
     "pliant, paper: bottom-up",
 )
 LOCAL, WORLD = "van den Bergen, local frame", "van den Bergen, world frame"
-PEERS = {"parry3d": "parry3d 0.31", "obvhs, 1 a leaf": "obvhs 0.4, 1 a leaf", "obvhs, 4 a leaf": "obvhs 0.4, 4 a leaf"}
-# Contest, window, what the README calls it.
+PEERS = {
+    "parry3d": "parry3d 0.31",
+    "obvhs, 1 a leaf": "obvhs 0.4, 1 a leaf",
+    "obvhs, 4 a leaf": "obvhs 0.4, 4 a leaf",
+}
+# Contest, window, name in the README.
 LINES = [
     ("two spheres", "easy", "two spheres of 20,480 triangles, apart"),
     ("two spheres", "hard", "deep in each other, all pairs"),
@@ -52,7 +61,9 @@ class Record:
     def __init__(self, file):
         record = json.loads(file.read_text())
         self.machine = record["machine"]
-        self.experiments = {experiment["experiment"]: experiment for experiment in record["experiments"]}
+        self.experiments = {
+            experiment["experiment"]: experiment for experiment in record["experiments"]
+        }
         self.rounds = record["experiments"][0]["rounds"]
 
     def contest(self, experiment, contest):
@@ -62,23 +73,34 @@ class Record:
         return next(known for known in contests if known["name"] == contest)
 
     def ms(self, experiment, contest, method, window):
-        """Mean milliseconds a step."""
+        """Mean time of a step, in milliseconds."""
         contest = self.contest(experiment, contest)
         place = [known["name"] for known in contest["windows"]].index(window)
-        return next(known for known in contest["methods"] if known["name"] == method)["windows"][place]["mean_ms"]
+        return next(known for known in contest["methods"] if known["name"] == method)["windows"][
+            place
+        ]["mean_ms"]
 
     def times(self, experiment, contest, fast, slow, window="all"):
-        return self.ms(experiment, contest, slow, window) / self.ms(experiment, contest, fast, window)
+        return self.ms(experiment, contest, slow, window) / self.ms(
+            experiment, contest, fast, window
+        )
 
     def claim(self, experiment, *words):
-        found = [claim for claim in self.experiments[experiment]["claims"] if all(word in claim["claim"] for word in words)]
+        found = [
+            claim
+            for claim in self.experiments[experiment]["claims"]
+            if all(word in claim["claim"] for word in words)
+        ]
         assert len(found) == 1, (experiment, words, [claim["claim"] for claim in found])
         return found[0]
 
     def claims(self, experiment):
         """All claims of an experiment, as rows of a table."""
         claims = self.experiments[experiment]["claims"]
-        return "\n".join(f"| {claim['claim']} | {VERDICTS[claim['verdict']]} | {claim['figure']} |" for claim in claims)
+        return "\n".join(
+            f"| {claim['claim']} | {VERDICTS[claim['verdict']]} | {claim['figure']} |"
+            for claim in claims
+        )
 
     def figure(self, experiment, *words):
         return self.claim(experiment, *words)["figure"]
@@ -88,7 +110,7 @@ class Record:
 
 
 def claims_of_the_paper(record):
-    """Statement, verdict, figure."""
+    """Rows of a table: statement, verdict, figure."""
     fig, ver, times = record.figure, record.verdict, record.times
     two = lambda x: f"{x:.2f}"
     both = lambda a, b: a if a == b else f"{a} / {b}"
@@ -100,8 +122,9 @@ def claims_of_the_paper(record):
     def over_bergen(experiment, contest):
         factor = lambda fast, slow: two(times(experiment, contest, fast, slow))
         return (
-            f"the paper's configuration {factor(HYBRID, LOCAL)} times (local frame), {factor(HYBRID, WORLD)} times "
-            f"(world frame); our default {factor(PLIANT, LOCAL)} and {factor(PLIANT, WORLD)} times"
+            f"the paper's configuration {factor(HYBRID, LOCAL)} times (local frame),"
+            f" {factor(HYBRID, WORLD)} times (world frame); our default {factor(PLIANT, LOCAL)} and"
+            f" {factor(PLIANT, WORLD)} times"
         )
 
     rows = []
@@ -112,34 +135,60 @@ def claims_of_the_paper(record):
             three(0, "easy"),
         )
     )
-    rows.append(("and in hard cases (3a)", ver("experiment-1", "3a", "hard cases"), three(0, "hard")))
-    rows.append(("the same for the first pair, simple cases (3b)", ver("experiment-1", "3b", "simple"), three(1, "easy")))
-    rows.append(("the first pair, hard cases (3b)", ver("experiment-1", "3b", "hard cases"), three(1, "hard")))
+    rows.append(
+        ("and in hard cases (3a)", ver("experiment-1", "3a", "hard cases"), three(0, "hard"))
+    )
+    rows.append(
+        (
+            "the same for the first pair, simple cases (3b)",
+            ver("experiment-1", "3b", "simple"),
+            three(1, "easy"),
+        )
+    )
+    rows.append(
+        (
+            "the first pair, hard cases (3b)",
+            ver("experiment-1", "3b", "hard cases"),
+            three(1, "hard"),
+        )
+    )
     rows.append(
         (
             "four to five times faster than van den Bergen (experiment 1, all pairs)",
-            both(ver("experiment-1", "3a", HYBRID + " is 4", LOCAL), ver("experiment-1", "3a", HYBRID + " is 4", WORLD)),
+            both(
+                ver("experiment-1", "3a", HYBRID + " is 4", LOCAL),
+                ver("experiment-1", "3a", HYBRID + " is 4", WORLD),
+            ),
             over_bergen("experiment-1", 0),
         )
     )
     rows.append(
         (
             "the same for the first pair",
-            both(ver("experiment-1", "3b", HYBRID + " is 4", LOCAL), ver("experiment-1", "3b", HYBRID + " is 4", WORLD)),
+            both(
+                ver("experiment-1", "3b", HYBRID + " is 4", LOCAL),
+                ver("experiment-1", "3b", HYBRID + " is 4", WORLD),
+            ),
             over_bergen("experiment-1", 1),
         )
     )
     rows.append(
         (
             "5.6 times faster for 27 spheres (4a)",
-            both(ver("experiment-3", "4a", HYBRID + " is", LOCAL), ver("experiment-3", "4a", HYBRID + " is", WORLD)),
+            both(
+                ver("experiment-3", "4a", HYBRID + " is", LOCAL),
+                ver("experiment-3", "4a", HYBRID + " is", WORLD),
+            ),
             over_bergen("experiment-3", 0),
         )
     )
     rows.append(
         (
             "4.5 times faster for 27 bodies with arms (4b)",
-            both(ver("experiment-3", "4b", HYBRID + " is", LOCAL), ver("experiment-3", "4b", HYBRID + " is", WORLD)),
+            both(
+                ver("experiment-3", "4b", HYBRID + " is", LOCAL),
+                ver("experiment-3", "4b", HYBRID + " is", WORLD),
+            ),
             over_bergen("experiment-3", 1),
         )
     )
@@ -188,7 +237,13 @@ def claims_of_the_paper(record):
             fig("degrees", "local frame: 8-ary"),
         )
     )
-    rows.append(("the same (world frame)", ver("degrees", "world frame: 8-ary"), fig("degrees", "world frame: 8-ary")))
+    rows.append(
+        (
+            "the same (world frame)",
+            ver("degrees", "world frame: 8-ary"),
+            fig("degrees", "world frame: 8-ary"),
+        )
+    )
     rows.append(
         (
             "brute force over bodies is fine to about 100",
@@ -215,7 +270,10 @@ def page(record, date):
     two = lambda x: f"{x:.2f}"
     bergen = lambda fast, slow: two(times("experiment-1", 0, fast, slow))
     update = lambda contest, window: two(times("experiment-1", contest, HYBRID, BOTTOM_UP, window))
-    table = "\n".join(f"| {statement} | {verdict} | {found} |" for statement, verdict, found in claims_of_the_paper(record))
+    table = "\n".join(
+        f"| {statement} | {verdict} | {found} |"
+        for statement, verdict, found in claims_of_the_paper(record)
+    )
     aims = record.claims("peers")
     near = newest("near-*.json")
     near_record = Record(near)
@@ -238,10 +296,15 @@ def page(record, date):
     cores = record.machine["cores"]
     return f"""# What the paper claims, what we aim at, and what we find
 
-From the full run of {date} ([text](records/{date}.txt), [JSON](records/{date}.json)): one thread of an {processor} ({cores} cores, a
-virtual machine), `pliant bench all --rounds {record.rounds}`. All methods use the same exact triangle decision and returned equal pair
-lists; how it is measured is in [METHOD.md](METHOD.md). Times are means of update and query a step, in milliseconds. On this machine
-ratios below 1.3 are ties. What was tried on the way is in [NOTES.md](NOTES.md) and [TRIED.md](TRIED.md). This page is written by `benchmarks/results.py`.
+From the full run of {date} ([text](records/{date}.txt), [JSON](records/{date}.json)): one thread \
+of an {processor} ({cores} cores, a
+virtual machine), `pliant bench all --rounds {record.rounds}`. All methods use the same exact \
+triangle decision and returned equal pair
+lists; how it is measured is in [METHOD.md](METHOD.md). Times are means of update and query a \
+step, in milliseconds. On this machine
+ratios below 1.3 are ties. What was tried on the way is in [NOTES.md](NOTES.md) and \
+[TRIED.md](TRIED.md). This page is \
+written by `benchmarks/results.py`.
 
 | the paper says | verdict | our figure |
 |---|---|---|
@@ -249,22 +312,31 @@ ratios below 1.3 are ties. What was tried on the way is in [NOTES.md](NOTES.md) 
 
 ## Where the factor over van den Bergen comes from
 
-The paper's factor of five had three parts: world-space boxes instead of oriented ones, wide trees, and the update. Today, in
+The paper's factor of five had three parts: world-space boxes instead of oriented ones, wide \
+trees, and the update. Today, in
 experiment 1, all pairs, over all 200 steps:
 
-- **The paper's configuration over the faithful van den Bergen: {bergen(HYBRID, LOCAL)} times (local frame), {bergen(HYBRID, WORLD)} times (world frame). Our
-  default: {bergen(PLIANT, LOCAL)} and {bergen(PLIANT, WORLD)} times.** Its kernels are eight lanes wide, van den Bergen's here are not.
-- **World frame.** Van den Bergen's own method gains {bergen(WORLD, LOCAL)} times from it, with nothing else changed.
-- **The update.** With everything else equal (our tree, traversal and code; hybrid against complete refit) it is worth {update(0, 'all')} times
-  over all steps for all pairs, {update(0, 'easy')} times in easy steps, {update(0, 'hard')} times in hard ones; and {update(1, 'all')} times for the first pair, where a
+- **The paper's configuration over the faithful van den Bergen: {bergen(HYBRID, LOCAL)} times \
+(local frame), {bergen(HYBRID, WORLD)} times (world frame). Our
+  default: {bergen(PLIANT, LOCAL)} and {bergen(PLIANT, WORLD)} times.** Its kernels are eight \
+lanes wide, van den Bergen's here are not.
+- **World frame.** Van den Bergen's own method gains {bergen(WORLD, LOCAL)} times from it, with \
+nothing else changed.
+- **The update.** With everything else equal (our tree, traversal and code; hybrid against \
+complete refit) it is worth {update(0, 'all')} times
+  over all steps for all pairs, {update(0, 'easy')} times in easy steps, {update(0, 'hard')} \
+times in hard ones; and {update(1, 'all')} times for the first pair, where a
   complete refit is made only if the last pair is none any more.
-- **What has changed since 2001.** A complete refit of both bodies costs {ms('experiment-1', 0, WORLD, 'easy'):.2f} ms today (van den Bergen, easy steps), and
+- **What has changed since 2001.** A complete refit of both bodies \
+costs {ms('experiment-1', 0, WORLD, 'easy'):.2f} ms today (van den Bergen, easy steps), and
   all methods with tight world boxes decide the same candidates, which no update saves.
 
 ## Our aims, against the libraries of today and the floor
 
-Aims and what became of them (`pliant bench peers`). The floor is one pass over all vertices with the widest registers; and, where
-pairs are asked for, the decision of the true pairs as it stood when the project began, and sorting them.
+Aims and what became of them (`pliant bench peers`). The floor is one pass over all vertices with \
+the widest registers; and, where
+pairs are asked for, the decision of the true pairs as it stood when the project began, and \
+sorting them.
 
 | aim | | our figure |
 |---|---|---|
@@ -272,16 +344,21 @@ pairs are asked for, the decision of the true pairs as it stood when the project
 
 ## What is near
 
-Vertices near triangles and edges near edges (`pliant bench near --rounds {near_record.rounds}`, [text](records/{near.stem}.txt),
-[JSON](records/{near.name}); one thread, and two where it says so, of an {near_record.machine['processor']}):
+Vertices near triangles and edges near edges (`pliant bench near --rounds {near_record.rounds}`, \
+[text](records/{near.stem}.txt),
+[JSON](records/{near.name}); one thread, and two where it says so, of \
+an {near_record.machine['processor']}):
 
 | aim | | our figure |
 |---|---|---|
 {near_aims}
 
-Beside ipc-toolkit's `Candidates.build` with its LBVH ([record](records/{ipctk}), the same machine; {header}). *More* are
-candidates that it has alone, all within its rounding; none is ours alone. Milliseconds; times faster are medians of rounds, with the
-least and the most. The aims were 8 at margin 0.1 and swept 0.1, and 4 where output dominates (margin 0.5, and armadillo-rollers swept 1).
+Beside ipc-toolkit's `Candidates.build` with its LBVH ([record](records/{ipctk}), the same \
+machine; {header}). *More* are
+candidates that it has alone, all within its rounding; none is ours alone. Milliseconds; times \
+faster are medians of rounds, with the
+least and the most. The aims were 8 at margin 0.1 and swept 0.1, and 4 where output dominates \
+(margin 0.5, and armadillo-rollers swept 1).
 
 | | | candidates | more | ours | its | times faster |
 |---|---|---|---|---|---|---|
@@ -289,23 +366,28 @@ least and the most. The aims were 8 at margin 0.1 and swept 0.1, and 4 where out
 
 ## What is close
 
-Vertices and triangles, and edges and edges, that are at most so far apart, measured; and how far two bodies are apart (`pliant bench close
---rounds {close_record.rounds}`, [text](records/{close.stem}.txt), [JSON](records/{close.name}); one thread of an
+Vertices and triangles, and edges and edges, that are at most so far apart, measured; and how far \
+two bodies are apart (`pliant bench close
+--rounds {close_record.rounds}`, [text](records/{close.stem}.txt), [JSON](records/{close.name}); \
+one thread of an
 {close_record.machine['processor']}):
 
 | aim | | our figure |
 |---|---|---|
 {close_aims}
 
-Beside ipc-toolkit's `NormalCollisions.build` with its LBVH ([record](records/{close_ipctk}); {close_header}). It keeps closest *features*,
-each once; *ties* are left to rounding, and nothing else differs. Milliseconds; times faster are medians of rounds, with the least and the
+Beside ipc-toolkit's `NormalCollisions.build` with its LBVH \
+([record](records/{close_ipctk}); {close_header}). It keeps closest *features*,
+each once; *ties* are left to rounding, and nothing else differs. Milliseconds; times faster are \
+medians of rounds, with the least and the
 most. The aim was 4.
 
 | | | pairs | features | ties | ours | its | times faster |
 |---|---|---|---|---|---|---|---|
 {close_beside}
 
-The distance of two spheres beside FCL's, from Python ([record](records/{fcl}); {fcl_header}). It makes its models anew at every step, for
+The distance of two spheres beside FCL's, from Python ([record](records/{fcl}); {fcl_header}). It \
+makes its models anew at every step, for
 want of another way in Python. Milliseconds a step; the aim was 10.
 
 | | ours | its making | its asking | times faster | than asking alone |
@@ -314,34 +396,43 @@ want of another way in Python. Milliseconds a step; the aim was 10.
 
 ## When
 
-What meets on its way to the next step, or on a tenth of it, and what meets first (`pliant bench when --rounds {when_record.rounds}`,
-[text](records/{when.stem}.txt), [JSON](records/{when.name}); one thread of an {when_record.machine['processor']}). What a candidate costs is
+What meets on its way to the next step, or on a tenth of it, and what meets first (`pliant bench \
+when --rounds {when_record.rounds}`,
+[text](records/{when.stem}.txt), [JSON](records/{when.name}); one thread of \
+an {when_record.machine['processor']}). What a candidate costs is
 the time of all impacts less that of showing all candidates to a visitor who counts them:
 
 | aim | | our figure |
 |---|---|---|
 {when_aims}
 
-Beside ipc-toolkit, with its Tight-Inclusion and its additive CCD ([record](records/{impacts_ipctk}); {impacts_header}). The *step* is how far
-everything may go: ours from `set_motion` to `collision_free_step`, its building of candidates and its step. Milliseconds; *misses* are steps
+Beside ipc-toolkit, with its Tight-Inclusion and its additive CCD \
+([record](records/{impacts_ipctk}); {impacts_header}). The *step* is how far
+everything may go: ours from `set_motion` to `collision_free_step`, its building of candidates \
+and its step. Milliseconds; *misses* are steps
 of its that go beyond the first contact, none of ours does.
 
-| | part | candidates | impacts | misses | step, ours | Tight-Inclusion | additive | a candidate, ns, ours | Tight-Inclusion | additive |
+| | part | candidates | impacts | misses | step, ours | Tight-Inclusion | additive | a candidate, \
+ns, ours | Tight-Inclusion | additive |
 |---|---|---|---|---|---|---|---|---|---|---|
 {impacts_beside}
 
 ## Change
 
-Meshes that change, a step with everything that an edit costs (`pliant bench change --rounds {change_record.rounds}`, [text](records/{change.stem}.txt),
-[JSON](records/{change.name}); one thread of an {change_record.machine['processor']}). Trees mend themselves only where it
+Meshes that change, a step with everything that an edit costs (`pliant bench change \
+--rounds {change_record.rounds}`, [text](records/{change.stem}.txt),
+[JSON](records/{change.name}); one thread of an {change_record.machine['processor']}). Trees mend \
+themselves only where it
 says so:
 
 | | | |
 |---|---|---|
 {change_found}
 
-Single edits, and the step after many ([record](records/{edits.name}), `cargo run --release -p pliant-bench --features peers --example edits`). The aims were 1 ms for
-a cut, faster than obvhs and 100 times faster than building anew; and 1.15 for the step after ten thousand edits:
+Single edits, and the step after many ([record](records/{edits.name}), `cargo run --release -p \
+pliant-bench --features peers --example edits`). The aims were 1 ms for
+a cut, faster than obvhs and 100 times faster than building anew; and 1.15 for the step after ten \
+thousand edits:
 
 ```text
 {edits.read_text().strip()}
@@ -350,7 +441,8 @@ a cut, faster than obvhs and 100 times faster than building anew; and 1.15 for t
 ## Exact contact
 
 A candidate of coplanar grids: {figure('degenerate', 'coplanar grids', 'the cost')}. Of two spheres:
-{figure('degenerate', 'two spheres, at the origin', 'the cost')}. That is {figure('degenerate', 'at most ten times')} as much.
+{figure('degenerate', 'two spheres, at the origin', 'the cost')}. That \
+is {figure('degenerate', 'at most ten times')} as much.
 """
 
 
@@ -359,7 +451,7 @@ def newest(pattern):
 
 
 def beside_ipctk():
-    """The name of the newest comparison, what was compared, and the rows of its table."""
+    """Newest comparison of candidates with ipctk: its name, its header, rows of its table."""
     file = newest("ipctk-*.txt")
     lines = file.read_text().splitlines()
     rows = []
@@ -373,7 +465,7 @@ def beside_ipctk():
 
 
 def beside_ipctk_close():
-    """The same of close pairs."""
+    """Newest comparison of close pairs with ipctk, in the form of `beside_ipctk`."""
     file = newest("close-ipctk-*.txt")
     lines = file.read_text().splitlines()
     rows = []
@@ -381,18 +473,27 @@ def beside_ipctk_close():
         words = re.split(r"\s{2,}", line.strip())
         if len(words) == 9 and words[5] == "0":
             name, what, pairs, features, ties, _, own, other, factor = words
-            rows.append(f"| {name} | {what} | {pairs} | {features} | {ties} | {own} | {other} | {factor} |")
+            rows.append(
+                f"| {name} | {what} | {pairs} | {features} | {ties} | {own} | {other} | {factor} |"
+            )
     assert rows and lines[-1].endswith("errors, of any kind: 0"), file
     return file.name, lines[0], "\n".join(rows)
 
 
 def beside_ipctk_impacts():
-    """The same of impacts and steps."""
+    """Newest comparison of impacts with ipctk, in the form of `beside_ipctk`."""
     file = newest("impacts-ipctk-*.txt")
     lines = file.read_text().splitlines()
     rows = []
     for line in lines:
-        words = re.fullmatch(r"(.+?)\s+(0\.1|1)" + r"\s+([\d,]+)" * 2 + r"\s+[\d.]+" * 3 + r"\s+(\d+)" + r"\s+([\d.]+)" * 6, line.rstrip())
+        words = re.fullmatch(
+            r"(.+?)\s+(0\.1|1)"
+            + r"\s+([\d,]+)" * 2
+            + r"\s+[\d.]+" * 3
+            + r"\s+(\d+)"
+            + r"\s+([\d.]+)" * 6,
+            line.rstrip(),
+        )
         if words:
             rows.append("| " + " | ".join(words.groups()) + " |")
     assert rows and lines[-1].endswith("that are: 0"), file
@@ -400,7 +501,7 @@ def beside_ipctk_impacts():
 
 
 def beside_fcl():
-    """The same of distances."""
+    """Newest comparison of distances with FCL, in the form of `beside_ipctk`."""
     file = newest("close-fcl-*.txt")
     lines = file.read_text().splitlines()
     rows = []
@@ -415,7 +516,11 @@ def beside_fcl():
 
 def table_of_the_readme(record, date):
     lines = [
-        f"Milliseconds a step, update and query, one thread of an {record.machine['processor']}, {date}; all methods with the same exact decision and equal",
+        (
+            "Milliseconds a step, update and query, one thread of an"
+            f" {record.machine['processor']}, {date}; all methods with the same exact decision and"
+            " equal"
+        ),
         "pair lists (`cargo run --release --features peers -- bench peers`).",
         "",
         "| | pliant | " + " | ".join(PEERS.values()) + " | times faster than the fastest of them |",
@@ -427,7 +532,13 @@ def table_of_the_readme(record, date):
         shown = " | ".join(f"{time:.3f}" for time in peers)
         lines.append(f"| {name} | **{own:.3f}** | {shown} | {min(peers) / own:.1f} |")
     bergen = record.times("experiment-1", 0, PLIANT, LOCAL)
-    lines += ["", f"Over the faithful van den Bergen (1997), in the paper's experiment 1: {bergen:.1f} times."]
+    lines += [
+        "",
+        (
+            f"Over the faithful van den Bergen (1997), in the paper's experiment 1: {bergen:.1f}"
+            " times."
+        ),
+    ]
     return "\n".join(lines)
 
 
@@ -441,7 +552,9 @@ def main():
     text = readme.read_text()
     begin, end = "<!-- benchmarks/results.py writes this -->\n", "<!-- to here -->\n"
     before, rest = text.split(begin)
-    readme.write_text(before + begin + table_of_the_readme(record, date) + "\n" + end + rest.split(end)[1])
+    readme.write_text(
+        before + begin + table_of_the_readme(record, date) + "\n" + end + rest.split(end)[1]
+    )
 
 
 if __name__ == "__main__":

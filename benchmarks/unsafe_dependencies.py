@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
-"""Which dependencies of what is published have unsafe code or C: of the library, of the readers of files, of the program and of the
-Python package, as this machine compiles them. Reads the sources that cargo has fetched.
+"""Lists dependencies with unsafe code or C of all that is published, as this machine compiles them.
 
-    benchmarks/unsafe_dependencies.py                               prints the list
-    benchmarks/unsafe_dependencies.py --check docs/RELIABILITY.md   fails too if that file does not name one of them in backquotes
+Published are the library, the readers of files, the program and the Python package. Reads the
+sources that cargo has fetched.
 
-Counted is the word `unsafe` in Rust sources, without comments, strings and modules of tests: of all that a package has for any
-system and feature, so that nothing is missed. What runs only when something is compiled, macros and build scripts, is listed
-apart; what only tests and experiments need is not. Needs Python 3.10 and cargo.
+    benchmarks/unsafe_dependencies.py              prints the list
+    benchmarks/unsafe_dependencies.py --check FILE fails if FILE does not name one in backquotes;
+                                                   FILE is docs/RELIABILITY.md
+
+Counts the word `unsafe` in Rust sources without comments, strings and test modules. All code of a
+package counts, for any system and feature, so that nothing is missed. Macros and build scripts,
+which run only during compilation, are listed apart. Dependencies of tests and experiments alone
+are left out. Needs Python 3.10 and cargo.
 """
 
 import argparse
@@ -18,8 +22,13 @@ import sys
 from pathlib import Path
 
 CHECKOUT = Path(__file__).resolve().parent.parent
-# What people get, in the order of the columns.
-PUBLISHED = {"library": "pliant", "files": "pliant-io", "program": "pliant-cli", "Python": "pliant-python"}
+# Published packages, in the order of the columns.
+PUBLISHED = {
+    "library": "pliant",
+    "files": "pliant-io",
+    "program": "pliant-cli",
+    "Python": "pliant-python",
+}
 
 TOKENS = re.compile(
     r"""//[^\n]* | /\*.*?\*/            # comments
@@ -32,23 +41,36 @@ UNSAFE = re.compile(r"\bunsafe\b")
 FORBIDDEN = re.compile(r"^#!\[forbid\([^\]]*\bunsafe_code\b", re.MULTILINE)
 COMPILERS = {"cc", "cmake", "nasm-rs"}
 OTHER_LANGUAGES = {".c", ".cc", ".cpp", ".s", ".S", ".asm", ".a", ".o", ".lib"}
-# In a package's folder, but not in what is compiled when another package uses it.
+# Folders of a package that are not compiled when another package uses it.
 ELSEWHERE = {"tests", "benches", "examples", "fuzz", "target"}
 
 
 def cargo(*arguments):
-    return subprocess.run(["cargo", *arguments], cwd=CHECKOUT, check=True, capture_output=True, text=True).stdout
+    return subprocess.run(
+        ["cargo", *arguments], cwd=CHECKOUT, check=True, capture_output=True, text=True
+    ).stdout
 
 
 def dependencies(package, edges):
-    """Names and versions of what a package needs, itself and the rest of the workspace left out."""
-    tree = cargo("tree", "--locked", "--package", package, "--edges", edges, "--prefix", "none", "--format", "{p}")
+    """Names and versions of a package's dependencies, without packages of the workspace."""
+    tree = cargo(
+        "tree",
+        "--locked",
+        "--package",
+        package,
+        "--edges",
+        edges,
+        "--prefix",
+        "none",
+        "--format",
+        "{p}",
+    )
     lines = {line.removesuffix(" (*)").removesuffix(" (proc-macro)") for line in tree.splitlines()}
     return {tuple(line.split(" v", 1)) for line in lines if line and "(" not in line}
 
 
 def without_tests(source):
-    """The source without its modules of tests; strings and comments are gone already, so that braces are braces."""
+    """Source without its test modules. It has no strings or comments, so every brace counts."""
     while begin := TESTS.search(source):
         depth, end = 1, begin.end()
         while depth and end < len(source):
@@ -66,35 +88,46 @@ def rust_files(folder):
 
 
 def looked_at(package):
-    """How many times a package says `unsafe`, and whether it has, or compiles, another language."""
+    """Number of times that a package says `unsafe`, and whether it has another language."""
     folder = Path(package["manifest_path"]).parent
     count = 0
     for file in rust_files(folder):
         text = file.read_text(encoding="utf-8", errors="replace")
         if FORBIDDEN.search(text) and file == folder / "src" / "lib.rs":
-            # The compiler has made sure, whatever words there are.
+            # The compiler forbids unsafe code here, whatever words there are.
             return 0, has_c(package, folder)
         count += len(UNSAFE.findall(without_tests(TOKENS.sub(" ", text))))
     return count, has_c(package, folder)
 
 
 def has_c(package, folder):
-    """Whether its build script is given a compiler of another language, or it brings what one made or would take."""
-    needed = {it["name"] for it in package["dependencies"] if it["kind"] == "build" and not it["optional"]}
+    """Whether it needs a compiler of another language, or has sources or objects of one."""
+    needed = {
+        it["name"] for it in package["dependencies"] if it["kind"] == "build" and not it["optional"]
+    }
     files = (file for file in folder.rglob("*") if file.suffix in OTHER_LANGUAGES)
-    return bool(COMPILERS & needed) or any(file.relative_to(folder).parts[0] not in ELSEWHERE for file in files)
+    return bool(COMPILERS & needed) or any(
+        file.relative_to(folder).parts[0] not in ELSEWHERE for file in files
+    )
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--check", metavar="FILE", type=Path)
     arguments = parser.parse_args()
 
     metadata = json.loads(cargo("metadata", "--locked", "--format-version", "1"))
     packages = {(it["name"], it["version"]): it for it in metadata["packages"]}
-    shipped = {name: dependencies(package, "normal,no-proc-macro") for name, package in PUBLISHED.items()}
+    shipped = {
+        name: dependencies(package, "normal,no-proc-macro") for name, package in PUBLISHED.items()
+    }
     everything = set().union(*shipped.values())
-    compiling = set().union(*(dependencies(package, "normal,build") for package in PUBLISHED.values())) - everything
+    compiling = (
+        set().union(*(dependencies(package, "normal,build") for package in PUBLISHED.values()))
+        - everything
+    )
     found = {package: looked_at(packages[package]) for package in sorted(everything | compiling)}
 
     def is_listed(package):
@@ -112,7 +145,9 @@ def main():
 
     if arguments.check:
         text = arguments.check.read_text(encoding="utf-8")
-        missing = sorted({name for name, _ in filter(is_listed, everything) if f"`{name}`" not in text})
+        missing = sorted(
+            {name for name, _ in filter(is_listed, everything) if f"`{name}`" not in text}
+        )
         if missing:
             sys.exit(f"{arguments.check} does not name: {', '.join(missing)}")
 

@@ -1,4 +1,4 @@
-//! Notes the compiler's version for the machine line of records.
+//! Records the compiler's version, for the machine line of records.
 
 use std::process::Command;
 

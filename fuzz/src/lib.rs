@@ -1,4 +1,4 @@
-//! What the targets that read files share.
+//! Shared code of the fuzz targets: reading input as a file, and its checks.
 
 pub mod places;
 
@@ -13,7 +13,7 @@ thread_local! {
     static FOLDER: OnceCell<TempDir> = const { OnceCell::new() };
 }
 
-/// A folder of one's own: in memory, where the system has such a place.
+/// A folder of this thread's own, in memory if the system has such a place.
 pub fn folder() -> PathBuf {
     FOLDER.with(|folder| {
         let memory = Path::new("/dev/shm");
@@ -29,16 +29,18 @@ pub fn folder() -> PathBuf {
     })
 }
 
-/// Where the file is written.
+/// Path of the input file.
 fn path(ending: &str) -> PathBuf {
     folder().join("fuzzed").with_extension(ending)
 }
 
-/// The mesh beside positions.
+/// Mesh beside a file of positions.
 const MESH: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n";
 
-/// Reads `contents` as a file with this `ending` (beside a mesh, where it holds positions alone): frames whose parts agree, or an
-/// error of one line that names the file; welded or not, the same frames.
+/// Reads `contents` as a file with this `ending`, and checks what the reader returns.
+///
+/// A file of positions alone stands beside a mesh. The result is frames whose parts agree, or an
+/// error of one line that names the file. Frames are equal, welded or not.
 pub fn read_as(ending: &str, contents: &[u8]) {
     let path = path(ending);
     fs::write(&path, contents).expect("a file can be written");
@@ -58,25 +60,25 @@ pub fn read_as(ending: &str, contents: &[u8]) {
     });
     match (welded, apart) {
         (Ok(welded), Ok(apart)) => assert_eq!(welded, apart, "welding moves no vertex"),
-        // Only seams that open, and the memory that finding them takes, may make a difference.
+        // The exceptions: seams that open, and the memory that welding takes.
         (Ok(_), Err(error)) => panic!("read when welded, but not apart: {error}"),
         (Err(_), _) => {}
     }
 }
 
-/// The bits of all frames.
+/// Bits of all coordinates in all frames.
 fn read(argument: &str, options: &OpenOptions) -> Result<Vec<[u64; 3]>, String> {
     let mut bits = Vec::new();
     let result = pliant_io::open_all(argument, options).and_then(|bodies| {
         assert!(!bodies.is_empty());
-        // A few kilobytes can hold a great many bodies, too.
+        // A few kilobytes can hold very many bodies.
         let mut bodies = bodies.into_iter().take(20);
         bodies.try_for_each(|body| read_body(body, &mut bits))
     });
     result.map(|()| bits).map_err(|error| {
         let message = error.to_string();
         assert_eq!(message.lines().count(), 1, "{message}");
-        // The file, or one beside it that it says it needs.
+        // The file, or a file beside it that it needs.
         let folder = path("").with_file_name("").display().to_string();
         assert!(message.contains(&folder), "{message}");
         message
@@ -106,7 +108,7 @@ fn read_body(mut body: Body, bits: &mut Vec<[u64; 3]>) -> Result<(), Error> {
     );
     let frames = body.frame_count();
     let mut read = 0;
-    // Few kilobytes can hold a great many frames.
+    // A few kilobytes can hold very many frames.
     while read < 100
         && let Some(positions) = body.next_frame()?
     {
@@ -124,7 +126,7 @@ fn read_body(mut body: Body, bits: &mut Vec<[u64; 3]>) -> Result<(), Error> {
     Ok(())
 }
 
-/// A GLB file of this JSON, and the bytes behind it.
+/// Builds a GLB file of a JSON chunk and a binary chunk.
 pub fn glb(json: &[u8], buffer: &[u8]) -> Vec<u8> {
     let mut json = json.to_vec();
     json.resize(json.len().next_multiple_of(4), b' ');

@@ -2,18 +2,21 @@
 
 use arbitrary::Arbitrary;
 
-/// How small numbers become coordinates. Every one is finite, at most `f32::MAX`, and exact in f32 unless it says otherwise.
+/// A map from small numbers to coordinates.
+///
+/// Every coordinate is finite and at most `f32::MAX`. Unless a variant says otherwise, it is exact
+/// in f32.
 #[derive(Arbitrary, Clone, Copy, Debug, PartialEq)]
 pub enum Grid {
-    /// Small whole numbers: triangles that touch, overlap in a plane, repeat.
+    /// Small integers: triangles that touch, overlap in a plane, repeat.
     Lattice,
-    /// Few of them: nearly everything touches.
+    /// Three integers: nearly everything touches.
     Coarse,
-    /// The same at the upper end of f32.
+    /// Small integers, scaled to the upper end of f32.
     Huge,
-    /// The same in subnormal numbers.
+    /// Small integers, scaled to subnormal numbers.
     Tiny,
-    /// Whole numbers, and next to them: nearly coplanar.
+    /// Integers, and numbers next to them: nearly coplanar.
     Beside,
     /// Powers of two from 2^-112 to 2^112, with either sign.
     Powers,
@@ -22,7 +25,7 @@ pub enum Grid {
 }
 
 impl Grid {
-    /// The coordinate that `small` stands for; one that f32 does not hold only if `wide`.
+    /// Coordinate of a small number. Only if `wide`, it may be one that f32 does not hold.
     pub fn coordinate(self, small: i8, wide: bool) -> f64 {
         let x = f64::from(small);
         match self {
@@ -50,7 +53,7 @@ impl Grid {
         }
     }
 
-    /// The places of `points`.
+    /// Positions of `points`.
     pub fn places(self, points: &[[i8; 3]], wide: bool) -> Vec<[f64; 3]> {
         let place = |point: &[i8; 3]| point.map(|small| self.coordinate(small, wide));
         points.iter().map(place).collect()

@@ -1,4 +1,6 @@
-//! Any bytes as the positions of a mesh of four vertices: MDD where the first byte is odd, otherwise PC2.
+//! Fuzzes position caches: any bytes as the positions of a mesh of four vertices.
+//!
+//! The first byte chooses the format: MDD if it is odd, otherwise PC2.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|input: &[u8]| if let [kind, contents @ ..] = input {

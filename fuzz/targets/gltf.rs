@@ -1,7 +1,7 @@
-//! Any bytes as a glTF file, and any JSON with any bytes behind it: the lengths of the chunks are more than a fuzzer guesses.
+//! Fuzzes glTF: any bytes as a file, and any JSON with any bytes as its buffer.
 //!
-//! What begins like a file (`glTF`, `{`) is the file; otherwise the first two bytes say how long the JSON is, and what follows it
-//! is the buffer.
+//! Input that begins like a file (`glTF`, `{`) is the file. Otherwise the first two bytes are the
+//! length of the JSON, and the buffer follows it. So a fuzzer need not guess the lengths of chunks.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|input: &[u8]| match *input {

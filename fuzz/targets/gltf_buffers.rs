@@ -1,5 +1,8 @@
-//! Accessors and views of any numbers over any bytes, in a document that uses them for everything that a file can say: what a
-//! fuzzer of bytes does not find, because the JSON must be whole first. Buffers are behind the JSON, and the file itself once more.
+//! Fuzzes glTF accessors and buffer views: any numbers over any bytes.
+//!
+//! The document uses them for everything that a file can contain. A fuzzer of bytes does not find
+//! this, since the JSON must be whole first. Buffers are the chunk behind the JSON, and the file
+//! itself.
 #![no_main]
 
 use arbitrary::Arbitrary;
@@ -9,15 +12,15 @@ use std::fmt::Write as _;
 struct Input<'a> {
     views: Vec<View>,
     accessors: Vec<Accessor>,
-    /// Another primitive, of these positions alone.
+    /// Positions of another primitive, which has nothing else.
     another: Option<u8>,
     mode: u8,
     positions: u8,
     indices: Option<u8>,
-    /// Joints and weights, and the matrices of the skin.
+    /// Joints, weights, and the skin's matrices.
     held: Option<(u8, u8, Option<u8>)>,
     targets: Vec<u8>,
-    /// Times, values, what they move, and how it goes from one to the next.
+    /// Times, values, the animated property, and the interpolation.
     clip: Option<(u8, u8, u8, u8)>,
     bytes: &'a [u8],
 }
@@ -49,7 +52,7 @@ struct Sparse {
     values: (u8, Number),
 }
 
-/// Small ones are right now and then; the others are where sums and products have no room.
+/// A number of the document. Small ones are sometimes right; in others sums and products overflow.
 #[derive(Arbitrary, Clone, Copy, Debug)]
 enum Number {
     Small(u8),
@@ -77,12 +80,12 @@ fn shape(number: u8) -> &'static str {
     ["VEC3", "SCALAR", "VEC4", "MAT4", "VEC2"][usize::from(number % 5)]
 }
 
-/// The number of one of so many things, or at times of none.
+/// Index into `items`, or one beyond the end.
 fn one_of<T>(items: &[T], number: u8) -> usize {
     usize::from(number) % (items.len() + 1)
 }
 
-/// Elements of an array, with commas between.
+/// Elements of a JSON array, separated by commas.
 fn list<T>(items: &[T], each: impl Fn(&T) -> String) -> String {
     items.iter().map(each).collect::<Vec<_>>().join(",")
 }
@@ -117,7 +120,8 @@ fn accessor(accessor: &Accessor, views: &[View]) -> String {
         let ((indices, at), (values, from)) = (sparse.indices, sparse.values);
         write!(
             text,
-            ",\"sparse\":{{\"count\":{},\"indices\":{{\"bufferView\":{},\"byteOffset\":{},\"componentType\":{}}},\
+            ",\"sparse\":{{\"count\":{},\
+             \"indices\":{{\"bufferView\":{},\"byteOffset\":{},\"componentType\":{}}},\
              \"values\":{{\"bufferView\":{},\"byteOffset\":{}}}}}",
             sparse.count.get(),
             view(indices),
@@ -170,7 +174,8 @@ fn document(input: &Input) -> String {
     });
     let primitives = primitive + &another.unwrap_or_default();
     format!(
-        "{{\"scenes\":[{{\"nodes\":[0,1]}}],\"nodes\":[{{\"mesh\":0{skin}}},{{\"children\":[2]}},{{}}],\"skins\":[{skins}],\
+        "{{\"scenes\":[{{\"nodes\":[0,1]}}],\
+         \"nodes\":[{{\"mesh\":0{skin}}},{{\"children\":[2]}},{{}}],\"skins\":[{skins}],\
          \"meshes\":[{{\"weights\":[0.5,2],\"primitives\":[{primitives}]}}],\
          \"animations\":[{}],\"accessors\":[{}],\"bufferViews\":[{}],\
          \"buffers\":[{{\"byteLength\":{}}},{{\"byteLength\":{},\"uri\":\"fuzzed.gltf\"}}]}}",

@@ -1,7 +1,9 @@
-//! Any bytes as an NPZ file, and any bytes as the arrays of an intact one: a checksum is more than a fuzzer guesses.
+//! Fuzzes NPZ: any bytes as a file, and any bytes as the arrays of an intact one.
 //!
-//! What begins like an archive (`PK`) is the file; otherwise the first byte says whether the arrays are deflated (odd), two more
-//! how long the first is, and the rest are `vertices.npy` and `faces.npy`.
+//! Input that begins like an archive (`PK`) is the file. Otherwise an archive of `vertices.npy` and
+//! `faces.npy` is made, so that a fuzzer need not guess a checksum. The first byte says whether the
+//! arrays are deflated (odd). The next two are the length of the first array, and the rest are both
+//! arrays.
 #![no_main]
 
 use std::io::{Cursor, Write};

@@ -1,4 +1,4 @@
-//! Any bytes as an OBJ file.
+//! Fuzzes OBJ: any bytes as a file.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|contents: &[u8]| pliant_fuzz::read_as("obj", contents));

@@ -1,5 +1,8 @@
-//! Sequences written over anything that may be under their names, and given up at any moment: a file is whole or as it was, without
-//! leave nothing that was there changes, no link is followed, no half of a file is left, and what was finished reads back bit for bit.
+//! Fuzzes writers: sequences written over anything that may be under their names, and given up at
+//! any moment.
+//!
+//! A file is whole or as it was. Without leave to overwrite, nothing that was there changes. No
+//! link is followed, and no half of a file is left. A finished file reads back bit for bit.
 #![no_main]
 
 use std::fs;
@@ -23,20 +26,20 @@ struct Input {
     is_finished: bool,
 }
 
-/// What is under a name before.
+/// State of a name before writing.
 #[derive(Arbitrary, Clone, Copy, Debug)]
 enum There {
     Nothing,
     File,
     Folder,
-    /// To a file that nobody named.
+    /// Link to a file that no argument names.
     Link,
     HardLink,
     LinkToNothing,
     LinkToFolder,
 }
 
-/// An integer, times a power of two: also what 32 bits do not hold.
+/// An integer times a power of two; some need more than 32 bits.
 #[derive(Arbitrary, Clone, Copy, Debug)]
 struct Coordinate(i32, i8);
 
@@ -50,7 +53,7 @@ const NAMES: [&str; 10] = [
     "a.obj", "a.ply", "a.stl", "a.npz", "a.pc2", "a.mdd", "a_0.obj", "a_1.obj", "a_2.obj", "a.txt",
 ];
 
-/// Arguments, and what they write; one that cannot be written.
+/// Arguments, and the files that they write. The last two cannot be written.
 const ARGUMENTS: [(&str, &[&str]); 9] = [
     ("a.obj", &["a.obj"]),
     ("a.ply", &["a.ply"]),
@@ -65,7 +68,7 @@ const ARGUMENTS: [(&str, &[&str]); 9] = [
 
 const MINE: &[u8] = b"what nobody may lose";
 
-/// What is under a name, as it is compared.
+/// State of a name, for comparison: inode, target of a link, content of a file.
 fn look(path: &Path) -> Option<(u64, Option<PathBuf>, Option<Vec<u8>>)> {
     let its = path.symlink_metadata().ok()?;
     let content = its
@@ -87,7 +90,7 @@ fn put(there: There, path: &Path, mine: &Path) {
     .expect("a folder of one's own can be filled");
 }
 
-/// Writes as it is told to. Whether it was finished, and which frames were taken.
+/// Writes the sequence. Returns whether it was finished, and the frames that were taken.
 fn write(
     input: &Input,
     argument: &str,
@@ -109,7 +112,7 @@ fn write(
         } else {
             Positions::F32(&narrow)
         };
-        // After one that was refused another may be given.
+        // After a frame that was refused, another may be given.
         if writer.frame(positions).is_ok() {
             taken.push(frame.clone());
         }
@@ -117,7 +120,9 @@ fn write(
     (input.is_finished && writer.finish().is_ok(), taken)
 }
 
-/// What was finished is what was given; in 32 bits where the format has no others. Of STL the corners, whose vertices have no numbers.
+/// Asserts that a finished file has the frames given, in 32 bits where the format has no others.
+///
+/// STL has no vertex numbers, so its corners are compared.
 fn compare(argument: &str, shape: &Shape, frames: &[Vec<[f64; 3]>]) {
     let options = OpenOptions {
         weld: false,
@@ -149,7 +154,7 @@ fn compare(argument: &str, shape: &Shape, frames: &[Vec<[f64; 3]>]) {
     }
 }
 
-/// Points one by one.
+/// Points one by one, compared bit by bit.
 trait Points: Iterator<Item = [f64; 3]> + Sized {
     fn eq_by_bits(self, other: impl Iterator<Item = [f64; 3]>, bits: impl Fn(f64) -> u64) -> bool {
         self.map(|point| point.map(&bits))
@@ -188,7 +193,7 @@ libfuzzer_sys::fuzz_target!(|input: Input| {
     let frames = input.frames.iter().take(4).map(|points| {
         let vertices = points.iter().take(6);
         let points: Vec<_> = vertices.map(|point| point.map(Coordinate::get)).collect();
-        // Mostly as many as were announced.
+        // Mostly as many vertices as announced.
         let missing = vertex_count.saturating_sub(points.len());
         [points, vec![[0.5, 1e-40, -0.0]; missing]].concat()
     });
@@ -226,7 +231,8 @@ libfuzzer_sys::fuzz_target!(|input: Input| {
         let name = name.to_str().expect("a plain name");
         assert!(name == "mine" || NAMES.contains(&name), "{name} was left");
     }
-    // A file of one frame is there as soon as that is; one of several, and a pair of files, when all of it is.
+    // A file of one frame appears as soon as that is written. A file of several frames, or a pair
+    // of files, appears when all of it is.
     let may_change = is_whole || !(name.contains('+') || name.ends_with("npz"));
     for ((name, before), after) in NAMES.iter().zip(&before).zip(&after) {
         let is_written = may_change && writes.contains(name);
@@ -235,7 +241,7 @@ libfuzzer_sys::fuzz_target!(|input: Input| {
         }
     }
     if is_whole && name.contains('%') {
-        // One by one: others beside them were there before.
+        // One by one, since other files beside them were there before.
         for (number, frame) in taken.chunks(1).enumerate() {
             compare(&argument.replace("%d", &number.to_string()), &shape, frame);
         }

@@ -1,4 +1,4 @@
-//! Any bytes as an STL file.
+//! Fuzzes STL: any bytes as a file.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|contents: &[u8]| pliant_fuzz::read_as("stl", contents));

@@ -1,4 +1,5 @@
-//! Two triangles: every way to ask the library gives the answer of the oracle, which knows another definition.
+//! Fuzzes intersection of two triangles: every query of the library agrees with the oracle, which
+//! uses another definition.
 #![no_main]
 
 use arbitrary::Arbitrary;
@@ -6,12 +7,12 @@ use pliant::{Scalar, Selection, World, reference};
 use pliant_fuzz::places::Grid;
 use pliant_oracle::intersect;
 
-/// Six corners: those of one triangle, then those of the other.
+/// Six corners: three of one triangle, then three of the other.
 #[derive(Arbitrary, Debug)]
 enum Corners {
-    /// Few numbers, so that much coincides.
+    /// Few numbers, so that many coincide.
     Grid(Grid, [[i8; 3]; 6]),
-    /// Small numbers times powers of two, each its own.
+    /// Small numbers times powers of two, one each.
     Scaled([[(i8, i16); 3]; 6]),
     /// Any bits.
     Narrow([[u32; 3]; 6]),
@@ -22,9 +23,9 @@ enum Corners {
 struct Pair {
     corners: Corners,
     wide: bool,
-    /// Corners that are those of the first triangle instead.
+    /// For each corner of the second triangle, a corner of the first that replaces it.
     shared: [Option<u8>; 3],
-    /// Corners that lie halfway between two others, as nearly as coordinates allow.
+    /// A corner, and two others between which it is put half way, as nearly as coordinates allow.
     halfway: Option<(u8, u8, u8)>,
 }
 
@@ -95,7 +96,7 @@ fn check<S: Scalar>(corners: [[S; 3]; 6]) {
     assert_eq!(triangles(&mut world, Selection::Within(both)), own);
 }
 
-/// All pairs, without their bodies.
+/// All pairs of triangles of a selection, without their bodies.
 fn triangles<S: Scalar>(world: &mut World<S>, of: Selection) -> Vec<[u32; 2]> {
     let pairs = world.intersections(of).all().expect("the bodies are there");
     pairs.iter().map(pliant::Pair::triangles).collect()

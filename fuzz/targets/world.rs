@@ -1,6 +1,7 @@
-//! A life of a world, call by call: every answer is that of `pliant::reference`, every refusal changes nothing.
+//! Fuzzes the life of a world, call by call, against `pliant::reference`.
 //!
-//! Bodies are few and small, since the reference decides every pair; coordinates are where exactness is hard.
+//! Every answer equals the reference's, and every refusal changes nothing. Bodies are few and
+//! small, since the reference decides every pair. Coordinates are where exactness is hard.
 #![no_main]
 
 use std::ops::ControlFlow;
@@ -13,7 +14,7 @@ use pliant::{
 };
 use pliant_fuzz::places::Grid;
 
-/// The most bodies alive, triangles and vertices of one, and calls.
+/// Limits: bodies alive, triangles and vertices of a body, and calls.
 const BODIES: usize = 4;
 const TRIANGLES: usize = 12;
 const VERTICES: usize = 16;
@@ -38,7 +39,7 @@ struct Shape {
     points: Vec<[i8; 3]>,
 }
 
-/// What is done; a number names a body alive, counted round.
+/// A call of the world. A number names a body alive, modulo their count.
 #[derive(Arbitrary, Debug)]
 enum Call {
     Add {
@@ -84,7 +85,7 @@ enum Call {
     Edit(u8, Vec<Change>),
 }
 
-/// A step of an edit; numbers are counted round those that there are and one more, so that some are of nothing.
+/// A step of an edit. Numbers are taken modulo one more than the count, so that some name nothing.
 #[derive(Arbitrary, Debug)]
 enum Change {
     AddVertex([i8; 3]),
@@ -135,17 +136,17 @@ fn options(life: &Life) -> Options {
     options
 }
 
-/// What is known of a body: enough to ask the reference.
+/// Facts about a body: enough for the reference.
 struct Known<S> {
     id: BodyId,
-    /// Those that are not empty, and their numbers; and how many numbers there are.
+    /// Triangles that are not empty, and their numbers. `count` is the number of all numbers.
     triangles: Vec<[u32; 3]>,
     numbers: Vec<u32>,
     count: usize,
-    /// Of an empty vertex anything.
+    /// Positions; arbitrary for an empty vertex.
     positions: Vec<[S; 3]>,
     empty: Vec<bool>,
-    /// Where a motion ends; and the group of every vertex.
+    /// End of the motion, if any; and the group of every vertex.
     end: Option<Vec<[S; 3]>>,
     groups: Vec<u32>,
     membership: u32,
@@ -183,14 +184,29 @@ impl<S: Scalar> Lived<S> {
             self.itself(body);
         }
         self.all();
+        self.every_kind();
         self.world.validate().expect("the world is well");
+    }
+
+    /// Whatever is asked, a copy of the world, whose boxes are all made anew, says the same.
+    fn every_kind(&mut self) {
+        for (name, ask) in every_kind::<S>() {
+            let mut copy = self.world.clone();
+            for length in [0.0, 0.5] {
+                assert_eq!(
+                    ask(&mut self.world, length),
+                    ask(&mut copy, length),
+                    "{name}"
+                );
+            }
+        }
     }
 
     fn body(&self, number: u8) -> Option<usize> {
         usize::from(number).checked_rem(self.known.len())
     }
 
-    /// `count` places; where the shape has fewer points, they repeat.
+    /// Returns `count` positions; a shape with fewer points repeats them.
     fn places(&self, shape: &Shape, count: usize) -> Vec<[S; 3]> {
         let places = shape.grid.places(&shape.points, self.wide);
         let points = places
@@ -204,7 +220,7 @@ impl<S: Scalar> Lived<S> {
             .collect()
     }
 
-    /// A mesh with its shape; perhaps without triangles.
+    /// A mesh with its shape, perhaps without triangles.
     fn mesh(
         &self,
         vertices: u8,
@@ -226,7 +242,7 @@ impl<S: Scalar> Lived<S> {
         })
     }
 
-    /// A shape for a body, by either call; refused if it leaves the loose box.
+    /// Gives a body a shape by either call. It is refused if it leaves the loose box.
     fn moved(&mut self, body: usize, positions: Vec<[S; 3]>, write: bool) {
         let known = &mut self.known[body];
         let moved = if write {
@@ -363,7 +379,7 @@ impl<S: Scalar> Lived<S> {
                 } else {
                     self.world.unignore(pair[0], pair[1])
                 };
-                // A body with itself, perhaps.
+                // Both may be the same body.
                 done.expect("both are there");
                 self.ignored
                     .retain(|&[a, b]| [a, b] != pair && [b, a] != pair);
@@ -639,7 +655,7 @@ impl<S: Scalar> Lived<S> {
                 let (Some(a), Some(b)) = (self.body(a), self.body(b)) else {
                     return;
                 };
-                // 1, a half, a quarter ... and neighbouring numbers.
+                // Powers of one half, down to neighbouring numbers.
                 let width = if width == u8::MAX {
                     0.0
                 } else {
@@ -656,7 +672,7 @@ impl<S: Scalar> Lived<S> {
         }
     }
 
-    /// Makes changes to a body all at once, or has them refused, as an edit of a few lines says.
+    /// Applies changes to a body, or has them refused, and compares with a naive edit.
     fn edit(&mut self, body: usize, changes: &[Change]) {
         let known = &self.known[body];
         let mut mesh = Draft::of(known);
@@ -710,7 +726,7 @@ impl<S: Scalar> Lived<S> {
         is_good &= mesh.triangles.iter().any(Option::is_some);
         let edited = self.world.apply(&edit);
         if is_good && known.loose.is_some() {
-            // One that came and went in between might be outside.
+            // A vertex that came and went in between might have been outside.
             is_good = edited.is_ok();
         }
         assert_eq!(edited.is_ok(), is_good, "{edited:?}");
@@ -742,7 +758,7 @@ impl<S: Scalar> Lived<S> {
         );
     }
 
-    /// The candidates of two bodies, or of one with itself.
+    /// Compares the candidates of two bodies, or of one with itself.
     fn near(&mut self, a: usize, b: usize, radius: f64) {
         let (one, other) = (&self.known[a], &self.known[b]);
         let of = selection(one, other);
@@ -785,7 +801,7 @@ impl<S: Scalar> Lived<S> {
         assert_eq!(self.found_by_ends([one.id, other.id], found), expected);
     }
 
-    /// The close pairs of two bodies, or of one with itself.
+    /// Compares the close pairs of two bodies, or of one with itself.
     fn close(&mut self, a: usize, b: usize, distance: f64) {
         let (one, other) = (&self.known[a], &self.known[b]);
         let of = selection(one, other);
@@ -831,7 +847,7 @@ impl<S: Scalar> Lived<S> {
         let found = found.map(|it| ([it.pair.edge_a, it.pair.edge_b], ()));
         assert_eq!(self.found_by_ends([one.id, other.id], found), expected);
 
-        // Of two bodies that are named, the first is the one named first.
+        // Between two bodies, the first is the one named first in the selection.
         let expected = close_triangles(&self.known[a], &self.known[b], distance);
         let found = self.world.close_triangle_pairs(of, distance).all();
         let found = found.expect("both are there").iter();
@@ -840,7 +856,8 @@ impl<S: Scalar> Lived<S> {
         assert!(found.map(|it| it.pair.triangles()).eq(expected));
     }
 
-    /// What meets on the way, of two bodies or of one with itself; what meets first; and a step that lets nothing through.
+    /// Compares the impacts of two bodies, or of one with itself, the first impact, and a
+    /// collision-free step.
     fn meet(&mut self, a: usize, b: usize, width: f64, gap: f64) {
         let (one, other) = (&self.known[a], &self.known[b]);
         let of = selection(one, other);
@@ -886,7 +903,7 @@ impl<S: Scalar> Lived<S> {
         let first = self.world.first_impact(of, width).expect("both are there");
         assert_eq!(first.map(|it| [it.low(), it.high()]), earliest);
 
-        // Nothing meets on the way to the shape that a step makes but what does at its start.
+        // On the way that the step allows, nothing meets but what meets at its start.
         let step = self
             .world
             .collision_free_step(of, gap)
@@ -932,7 +949,7 @@ impl<S: Scalar> Lived<S> {
         assert!(met.iter().all(|it| it.high == 0.0));
     }
 
-    /// How far two bodies are apart: something is as near as that, and nothing nearer.
+    /// Compares the distance of two bodies: some pair is as near as that, and none nearer.
     fn distance(&mut self, a: usize, b: usize, cut_off: f64) {
         let (one, other) = (&self.known[a], &self.known[b]);
         let answer = self.world.distance(one.id, other.id, cut_off);
@@ -955,7 +972,7 @@ impl<S: Scalar> Lived<S> {
         }
     }
 
-    /// Pairs of edges of the world, by their ends.
+    /// Pairs of edges of the world, by their vertices.
     fn found_by_ends<T>(
         &self,
         bodies: [BodyId; 2],
@@ -972,7 +989,7 @@ impl<S: Scalar> Lived<S> {
             expected
         );
         assert_eq!(self.world.statistics().pairs, expected.len() as u64);
-        // The same, and each body that meets itself.
+        // The same pairs, and the pairs of each body with itself.
         let mut everything = expected;
         for known in &self.known {
             let meets_itself =
@@ -1025,7 +1042,7 @@ impl<S: Scalar> Lived<S> {
         assert!(first.is_none_or(|pair| expected.contains(&pair.triangles())));
     }
 
-    /// The pairs of the whole world, by the reference.
+    /// All pairs of the world, by the reference.
     fn expected(&self) -> Vec<Pair> {
         let mut all = Vec::new();
         for (place, a) in self.known.iter().enumerate() {
@@ -1054,12 +1071,12 @@ impl<S: Scalar> Lived<S> {
     }
 }
 
-/// A mesh and what an edit makes of it, without any cleverness; a step that is refused makes nothing good.
+/// A naive edit of a mesh. A step that is refused makes all of it bad.
 struct Draft<S> {
     triangles: Vec<Option<[u32; 3]>>,
-    /// Where a vertex is, and its group.
+    /// Position and group of each vertex; `None` if it is empty.
     vertices: Vec<Option<([S; 3], u32)>>,
-    /// Vertices that have come again.
+    /// Empty vertices that were placed again.
     placed: Vec<u32>,
 }
 
@@ -1147,7 +1164,7 @@ impl<S: Scalar> Draft<S> {
         place.is_some_and(|it| it.take().is_some())
     }
 
-    /// Whether the steps have come to nothing: then a motion goes on.
+    /// Whether the steps changed nothing: then a motion goes on.
     fn is_nothing(&self, known: &Known<S>) -> bool {
         let before = Self::of(known);
         let are_live =
@@ -1157,7 +1174,7 @@ impl<S: Scalar> Draft<S> {
             && self.placed.is_empty()
     }
 
-    /// What is known after all steps: vertices that lost their last triangle are empty.
+    /// Stores the facts after all steps. Vertices that lost their last triangle are empty.
     fn into_known(mut self, known: &mut Known<S>, anything: S) {
         if self.is_nothing(known) {
             return;
@@ -1180,12 +1197,12 @@ impl<S: Scalar> Draft<S> {
 }
 
 impl<S> Known<S> {
-    /// As they are numbered where none was ever asked for.
+    /// Edges, numbered as before any edit.
     fn edges(&self) -> Vec<[u32; 2]> {
         reference::edges(&self.triangles)
     }
 
-    /// What is in the rows of empty vertices.
+    /// Sets the positions of empty vertices.
     fn fill_empty(&mut self, anything: S)
     where
         S: Copy,
@@ -1210,7 +1227,22 @@ impl<S> Known<S> {
     }
 }
 
-/// Two bodies, or one with itself.
+macro_rules! list {
+    ($($name:ident: $kept:ty => $($hit:ty: $method:ident($of:ident $(, $length:ident)?)),+;)*) => {
+        /// The methods of every kind of query that the library's registry lists: all hits, as text.
+        fn every_kind<S: Scalar>() -> Vec<(&'static str, fn(&mut World<S>, f64) -> String)> {
+            vec![$($((stringify!($method), |world, within| {
+                // A kind without a length takes none of it.
+                let ($of, ($($length,)? ..)) = (Selection::Everything, (within,));
+                format!("{:?}", world.$method($of $(, $length)?).all())
+            }),)+)*]
+        }
+    };
+}
+
+pliant::every_kind! { list }
+
+/// Selection of two bodies, or of one with itself.
 fn selection<S>(a: &Known<S>, b: &Known<S>) -> Selection {
     if a.id == b.id {
         Selection::Within(a.id)
@@ -1247,7 +1279,9 @@ fn numbered<S>(a: &Known<S>, b: &Known<S>, pairs: Vec<[u32; 2]>) -> Vec<[u32; 2]
     numbers.collect()
 }
 
-/// Pairs of edges by their ends, whatever the edges are called; in order. Of one body with itself either edge may come first.
+/// Pairs of edges by their vertices, sorted, however the edges are numbered.
+///
+/// In one body with itself either edge may come first.
 fn by_ends<T>(
     is_one: bool,
     [edges_a, edges_b]: [Vec<[u32; 2]>; 2],
@@ -1263,7 +1297,7 @@ fn by_ends<T>(
     pairs
 }
 
-/// A distance is as good as it is said to be, and has a direction unless it is 0.
+/// Asserts that a distance is within its bound, and has a direction unless it is 0.
 fn check_figures((distance, direction): (f64, Option<[f64; 3]>), within: f64) {
     assert!(distance >= 0.0 && distance <= within * (1.0 + f64::powi(0.5, 30)));
     assert_eq!(direction.is_none(), distance == 0.0);

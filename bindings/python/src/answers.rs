@@ -1,13 +1,13 @@
-//! Answers on their way to Python: vectors that become arrays, and classes of `_types.py`.
+//! Answers as objects of Python: vectors that become arrays, and classes of `_types.py`.
 
 use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use std::convert::Infallible;
 
-/// An object of Python's, of whatever class.
+/// An object of Python, of any class.
 pub(crate) type Any<'py> = Bound<'py, PyAny>;
 
-/// A vector that becomes an array (n,), which takes it over.
+/// A vector that becomes an array (n,), without a copy.
 pub(crate) struct Column<T>(pub(crate) Vec<T>);
 
 impl<'py, T: Element> IntoPyObject<'py> for Column<T> {
@@ -20,7 +20,7 @@ impl<'py, T: Element> IntoPyObject<'py> for Column<T> {
     }
 }
 
-/// A vector of rows, of pairs or positions, that becomes an array (k, K), which takes it over.
+/// A vector of rows, pairs or positions, that becomes an array (k, K), without a copy.
 pub(crate) struct Rows<T, const K: usize>(pub(crate) Vec<[T; K]>);
 
 impl<'py, T: Element, const K: usize> IntoPyObject<'py> for Rows<T, K> {
@@ -53,8 +53,9 @@ impl From<Vec<[f64; 3]>> for Owned {
     }
 }
 
-/// An array of rows that a query has listed. numpy makes it, because it asks for large pages where
-/// there is much to write.
+/// Copies the rows that a query has listed into an array.
+///
+/// numpy allocates it, because it asks for large pages where there is much to write.
 pub(crate) fn copy_of_rows<const K: usize>(
     py: Python<'_>,
     rows: impl ExactSizeIterator<Item = [u32; K]>,
@@ -70,12 +71,12 @@ pub(crate) fn copy_of_rows<const K: usize>(
     Ok(array)
 }
 
-/// A number of things, whose name in the singular and in the plural is given.
+/// A count with its noun, in the singular or the plural.
 pub(crate) fn counted(count: usize, [one, many]: [&str; 2]) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }
 
-/// A class of `_types.py`, which is looked up once: visitors are shown many.
+/// A class of `_types.py`, looked up once, because visitors are shown many of its objects.
 macro_rules! class {
     ($py:expr, $name:literal) => {{
         use pyo3::{Py, sync::PyOnceLock, types::PyType};
@@ -85,7 +86,7 @@ macro_rules! class {
 }
 pub(crate) use class;
 
-/// A value of a class of `_types.py`: of `from` its fields, or of fields one by one.
+/// An object of a class of `_types.py`, from fields of `$from`, or from fields one by one.
 macro_rules! named {
     ($py:expr, $class:literal of $from:ident: $($field:ident),*) => {
         named!($py, $class: $($field = $from.$field),*)

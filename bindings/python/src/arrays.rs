@@ -1,60 +1,66 @@
 //! numpy arrays of callers.
 //!
-//! An (n, 3) array of float32 or float64, and an (m, 3) array of any integers, in any layout, is copied once, by numpy, to where
-//! nobody else can write (`copies.rs`); integers are checked on their way to uint32. No value is ever changed: what would have to
-//! be rounded is refused, and so is a masked array that hides any.
+//! Positions are (n, 3) float32 or float64, faces (m, 3) of any integer type, in any layout. Numpy
+//! copies them once, to where nobody else can write (`copies.rs`). Integers are checked on the way
+//! to uint32. No value is ever changed: what would be rounded is refused, and so is a masked array
+//! that hides a value.
 
 use crate::answers::Any;
 use crate::copies::{self, Copied};
 use crate::error::{Refused, Result, refused};
 use numpy::{Element, PyArray2, PyArrayDescrMethods, PyUntypedArray, PyUntypedArrayMethods, dtype};
 use pliant_check::double;
-use pliant_io::Positions;
+use pliant_io::{Positions, shown_within};
 use pyo3::basic::CompareOp;
+use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::{PyEllipsis, PyList, PySlice, PyTuple};
 
-/// Positions of a caller's, which anybody may write to: to be copied.
+/// Positions of a caller, which anybody may write to: to be copied.
 pub(crate) enum Coordinates<'py> {
     F32(Bound<'py, PyArray2<f32>>),
     F64(Bound<'py, PyArray2<f64>>),
 }
 
-/// A copy of them.
+/// Copied positions.
 pub(crate) enum CopiedCoordinates<'py> {
     F32(Copied<'py, f32>),
     F64(Copied<'py, f64>),
 }
 
-/// A copy of triangles of a caller's.
+/// Copied triangles.
 pub(crate) enum CopiedFaces<'py> {
     AsGiven(Copied<'py, u32>),
     Converted(Vec<[u32; 3]>),
 }
 
 impl<'py> Coordinates<'py> {
-    /// Reads an (n, 3) array of float32 or float64, or what numpy makes one of.
+    /// Reads an (n, 3) array of float32 or float64, or an object that numpy converts to one.
     pub(crate) fn read(given: &Any<'py>) -> Result<Self> {
-        let array = as_array(given, "positions", "n")?;
+        Self::of_array(&as_array(given, "positions", "n")?, "positions")
+    }
+
+    /// Reads an (n, 3) array, called `what` in messages.
+    fn of_array(array: &Bound<'py, PyUntypedArray>, what: &str) -> Result<Self> {
         let dtype = array.dtype();
         match (dtype.kind(), dtype.itemsize()) {
-            (b'f', 4) => typed(&array).map(Self::F32),
-            (b'f', 8) => typed(&array).map(Self::F64),
+            (b'f', 4) => typed(array).map(Self::F32),
+            (b'f', 8) => typed(array).map(Self::F64),
             (kind, _) => {
-                let hint = if matches!(kind, b'i' | b'u') {
+                let hint = if matches!(kind, b'i' | b'u') && what == "positions" {
                     "; or were faces and positions exchanged?"
                 } else {
                     ""
                 };
                 Err(refused!(BadArray:
-                    "positions are of type {dtype}; they must be float32 or float64: use \
-                     positions.astype(numpy.float64){hint}"))
+                    "{what} are of type {dtype}; they must be float32 or float64: use \
+                     {what}.astype(numpy.float64){hint}"))
             }
         }
     }
 
-    /// How many there are.
+    /// Number of positions.
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::F32(array) => array.shape()[0],
@@ -64,15 +70,19 @@ impl<'py> Coordinates<'py> {
 }
 
 impl<'py> CopiedCoordinates<'py> {
-    /// Copies an (n, 3) array of float32 or float64, or what numpy makes one of.
+    /// Copies an (n, 3) array of float32 or float64, or an object that numpy converts to one.
     pub(crate) fn of(given: &Any<'py>) -> Result<Self> {
-        Ok(match Coordinates::read(given)? {
+        Self::anew(Coordinates::read(given)?)
+    }
+
+    fn anew(given: Coordinates<'py>) -> Result<Self> {
+        Ok(match given {
             Coordinates::F32(array) => Self::F32(copies::anew(&array)?),
             Coordinates::F64(array) => Self::F64(copies::anew(&array)?),
         })
     }
 
-    /// As the Rust libraries have them.
+    /// Positions as the Rust libraries have them.
     pub(crate) fn get(&self) -> Result<Positions<'_>> {
         Ok(match self {
             Self::F32(copied) => Positions::F32(copied.rows()?),
@@ -82,7 +92,7 @@ impl<'py> CopiedCoordinates<'py> {
 }
 
 impl<'py> CopiedFaces<'py> {
-    /// Copies an (m, 3) array of integers, or what numpy makes one of, the corners of triangles over `vertices` vertices.
+    /// Copies an (m, 3) array of integers: corners of triangles, below `vertices`.
     pub(crate) fn of(given: &Any<'py>, vertices: usize) -> Result<Self> {
         let array = as_array(given, "faces", "m")?;
         let dtype = array.dtype();
@@ -102,7 +112,7 @@ impl<'py> CopiedFaces<'py> {
         converted.map(Self::Converted)
     }
 
-    /// As the Rust library has them.
+    /// Triangles as the Rust library has them.
     pub(crate) fn get(&self) -> Result<&[[u32; 3]]> {
         match self {
             Self::AsGiven(copied) => copied.rows(),
@@ -111,14 +121,14 @@ impl<'py> CopiedFaces<'py> {
     }
 }
 
-/// A copy of a mesh of a caller's.
+/// Copied mesh.
 pub(crate) struct CopiedMesh<'py> {
     faces: CopiedFaces<'py>,
     positions: CopiedCoordinates<'py>,
 }
 
 impl<'py> CopiedMesh<'py> {
-    /// Copies the arrays of a mesh; what is refused is `about` it.
+    /// Copies the arrays of a mesh; `about` says of a refusal which mesh it is about.
     pub(crate) fn of(
         faces: &Any<'py>,
         positions: &Any<'py>,
@@ -130,15 +140,16 @@ impl<'py> CopiedMesh<'py> {
         Ok(Self { faces, positions })
     }
 
-    /// As the Rust library has it.
+    /// Mesh as the Rust library has it.
     pub(crate) fn get(&self) -> Result<(&[[u32; 3]], Positions<'_>)> {
         Ok((self.faces.get()?, self.positions.get()?))
     }
 }
 
-/// The faces and vertices of a mesh object: trimesh has `faces`, Open3D `triangles`, both `vertices`.
+/// Faces and vertices of a mesh object.
 ///
-/// `faces` first: what trimesh calls `triangles` are coordinates.
+/// trimesh has `faces`, Open3D `triangles`, both `vertices`. `faces` is looked for first, because
+/// `triangles` of trimesh are coordinates.
 pub(crate) fn parts_of_mesh<'py>(mesh: &Any<'py>) -> Result<[Bound<'py, PyAny>; 2]> {
     let py = mesh.py();
     let faces = match mesh.getattr_opt(intern!(py, "faces"))? {
@@ -153,7 +164,9 @@ pub(crate) fn parts_of_mesh<'py>(mesh: &Any<'py>) -> Result<[Bound<'py, PyAny>; 
     }
 }
 
-/// Copies an (n,) array of integers from 0 to 2^32 - 1, or what numpy makes one of; `what` they are, and what they are for.
+/// Copies an (n,) array of integers from 0 to 2^32 - 1.
+///
+/// `name` and `what` say in messages what the numbers are.
 pub(crate) fn numbers(given: &Any<'_>, [name, what]: [&str; 2]) -> Result<Vec<u32>> {
     let py = given.py();
     refuse_masks(given, name)?;
@@ -163,7 +176,7 @@ pub(crate) fn numbers(given: &Any<'_>, [name, what]: [&str; 2]) -> Result<Vec<u3
         refused!(BadArray:
             "{name} {have}; they must be integers from 0 to 4294967295, {what}")
     };
-    // numpy takes an empty list for one of floating point numbers.
+    // numpy takes an empty list for floating-point numbers.
     if array.shape() == [0] {
         return Ok(Vec::new());
     }
@@ -177,7 +190,7 @@ pub(crate) fn numbers(given: &Any<'_>, [name, what]: [&str; 2]) -> Result<Vec<u3
     rows.iter().map(number).collect()
 }
 
-/// Copies a (k, 4, 3) array of float32 or float64, or what numpy makes one of: four corners of each pair of elements.
+/// Copies a (k, 4, 3) array of float32 or float64: four corners of each pair of elements.
 pub(crate) fn pairs_of_elements(given: &Any<'_>) -> Result<Vec<[[f64; 3]; 4]>> {
     let py = given.py();
     refuse_masks(given, "corners")?;
@@ -188,16 +201,83 @@ pub(crate) fn pairs_of_elements(given: &Any<'_>) -> Result<Vec<[[f64; 3]; 4]>> {
             "corners have shape {shape}; it must be (k, 4, 3): four corners of each pair"));
     }
     let rows = array.call_method1(intern!(py, "reshape"), (-1, 3))?;
-    let copied = CopiedCoordinates::of(&rows)?;
+    let rows = rows.cast_into::<PyUntypedArray>().map_err(PyErr::from)?;
+    let copied = CopiedCoordinates::anew(Coordinates::of_array(&rows, "corners")?)?;
     let mut wide = Vec::new();
     let rows = double(copied.get()?, &mut wide);
     let (pairs, _) = rows.as_chunks::<4>();
     Ok(pairs.to_vec())
 }
 
-/// Three numbers, rounded to 64-bit ones.
-pub(crate) fn point(given: &Any<'_>) -> PyResult<[f64; 3]> {
-    given.extract()
+/// Copies one position, an array (3,) of float32 or float64, as an array of one row.
+pub(crate) fn position<'py>(given: &Any<'py>) -> Result<CopiedCoordinates<'py>> {
+    refuse_masks(given, "position")?;
+    let array = as_numpy(given, "position")?;
+    let shape = array.getattr("shape")?;
+    if array.shape() != [3] {
+        return Err(refused!(BadArray: "position has shape {shape}; it must be (3,)"));
+    }
+    let row = array.call_method1(intern!(array.py(), "reshape"), (1, 3))?;
+    CopiedCoordinates::of(&row)
+}
+
+/// Number of a vertex, a triangle or a level, or a mask of 32 bits.
+#[derive(Clone, Copy)]
+pub(crate) struct Number(pub(crate) u32);
+
+impl<'py> FromPyObject<'_, 'py> for Number {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let number = given.extract().map(Self);
+        number.map_err(|error| expected(given, error, "an integer from 0 to 4294967295"))
+    }
+}
+
+/// Corners of one triangle.
+#[derive(Clone, Copy)]
+pub(crate) struct Triangle(pub(crate) [u32; 3]);
+
+impl<'py> FromPyObject<'_, 'py> for Triangle {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let corners = given.extract().map(Self);
+        corners.map_err(|error| expected(given, error, "three vertex numbers, 0 to 4294967295"))
+    }
+}
+
+/// Lower and upper corner of a box, rounded to float64.
+#[derive(Clone, Copy)]
+pub(crate) struct BoxCorners(pub(crate) ([f64; 3], [f64; 3]));
+
+impl<'py> FromPyObject<'_, 'py> for BoxCorners {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let corners = given.extract().map(Self);
+        let wanted = "a tuple (lower, upper), three numbers each, or None";
+        corners.map_err(|error| expected(given, error, wanted))
+    }
+}
+
+/// Exception of the same class that says what was expected; pyo3 adds the name of the argument.
+pub(crate) fn expected(given: Borrowed<'_, '_, PyAny>, error: PyErr, wanted: &str) -> PyErr {
+    let py = given.py();
+    let Ok(given) = given.repr() else {
+        return error;
+    };
+    let given = given.to_string();
+    let text = format!("{} is not {wanted}", shown_within(&given, 60));
+    if error.is_instance_of::<PyOverflowError>(py) {
+        PyOverflowError::new_err(text)
+    } else if error.is_instance_of::<PyTypeError>(py) {
+        PyTypeError::new_err(text)
+    } else if error.is_instance_of::<PyValueError>(py) {
+        PyValueError::new_err(text)
+    } else {
+        error
+    }
 }
 
 /// An array of rows of three, without a mask.
@@ -220,7 +300,7 @@ fn as_array<'py>(given: &Any<'py>, what: &str, rows: &str) -> Result<Bound<'py, 
     Err(refused!(BadArray: "{what} have shape {shape}; it must be ({rows}, 3){hint}"))
 }
 
-/// What an array of a wrong shape may be, whatever its rows are.
+/// Hint about an array of a wrong shape, whatever its rows are.
 fn about_rows(array: &Bound<'_, PyUntypedArray>) -> &'static str {
     match array.shape() {
         [_, _, 3] => ": give one frame at a time",
@@ -229,7 +309,7 @@ fn about_rows(array: &Bound<'_, PyUntypedArray>) -> &'static str {
     }
 }
 
-/// What an array that is not one of triangles may be.
+/// Hint about an array that is not one of triangles.
 fn about_faces(array: &Bound<'_, PyUntypedArray>) -> PyResult<&'static str> {
     let py = array.py();
     // In VTK, and so in PyVista, a cell begins with how many corners it has.
@@ -243,7 +323,8 @@ fn about_faces(array: &Bound<'_, PyUntypedArray>) -> PyResult<&'static str> {
         }
         [3, _] => about_rows(array),
         [_, 4] => {
-            ": cut quads into two triangles each; of tetrahedra give the surface, the triangles that only one of them has"
+            ": cut quads into two triangles each; of tetrahedra give the surface, the triangles \
+             that only one of them has"
         }
         [_, 2] => ": of edges give each as the triangle [i, j, j]",
         [count]
@@ -258,7 +339,7 @@ fn about_faces(array: &Bound<'_, PyUntypedArray>) -> PyResult<&'static str> {
     })
 }
 
-/// What numpy makes an array of, and what has nothing but `__dlpack__`.
+/// Array that numpy makes of an object, one that has only `__dlpack__` included.
 fn as_numpy<'py>(given: &Any<'py>, what: &str) -> Result<Bound<'py, PyUntypedArray>> {
     let py = given.py();
     if let Ok(array) = given.cast::<PyUntypedArray>() {
@@ -267,7 +348,7 @@ fn as_numpy<'py>(given: &Any<'py>, what: &str) -> Result<Bound<'py, PyUntypedArr
     let numpy = py.import(intern!(py, "numpy"))?;
     let array = numpy.call_method1(intern!(py, "asarray"), (given,))?;
     let array = array.cast_into::<PyUntypedArray>().map_err(PyErr::from)?;
-    // What numpy cannot look into is an array of the one object.
+    // Of an object that numpy cannot read it makes an array of that one object.
     let is_one_object = array.ndim() == 0 && array.dtype().kind() == b'O';
     if !is_one_object || !given.hasattr(intern!(py, "__dlpack__"))? {
         return Ok(array);
@@ -281,7 +362,9 @@ fn as_numpy<'py>(given: &Any<'py>, what: &str) -> Result<Bound<'py, PyUntypedArr
     Ok(array.cast_into().map_err(PyErr::from)?)
 }
 
-/// Refuses a masked array that hides any number, and a list of such: what is hidden is there all the same, and would be read.
+/// Refuses a masked array that hides any number, and a list of such arrays.
+///
+/// A hidden number is in memory all the same, and would be read.
 fn refuse_masks(given: &Any<'_>, what: &str) -> Result<()> {
     let py = given.py();
     let is_masked = |item: &Any<'_>| -> PyResult<bool> {
@@ -316,7 +399,7 @@ fn any<'py>(
     items.try_fold(false, |found, item| Ok(found || is(&item)?))
 }
 
-/// The array itself, in whatever layout; what is of another byte order is copied once.
+/// The array itself, in whatever layout; one of another byte order is copied.
 fn typed<'py, T: Element>(array: &Bound<'py, PyUntypedArray>) -> Result<Bound<'py, PyArray2<T>>> {
     if let Ok(array) = array.cast::<PyArray2<T>>() {
         return Ok(array.clone());
@@ -326,7 +409,9 @@ fn typed<'py, T: Element>(array: &Bound<'py, PyUntypedArray>) -> Result<Bound<'p
     Ok(required.cast_into().map_err(PyErr::from)?)
 }
 
-/// Integers of another type, as 32-bit ones; the first that cannot be a vertex is refused as the library would.
+/// Converts integers of another type to uint32.
+///
+/// The first that cannot be a vertex is refused, as the library refuses one out of range.
 fn convert<T: Element + Copy + Into<i128>>(
     array: &Bound<'_, PyUntypedArray>,
     vertices: usize,

@@ -1,4 +1,7 @@
-//! Files, frame by frame: what `pliant check --format json` says, as an iterator of frames. The loop is the program's.
+//! `pliant.check`: files checked frame by frame, as an iterator of frames.
+//!
+//! The loop is `pliant_check`, as in the program. Frames hold what `pliant check --format json`
+//! writes.
 
 use crate::answers::{Any, Rows, counted, named};
 use crate::error::{Refused, Result, after_checking, alone, alone_with, caught, refused};
@@ -20,28 +23,33 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A check of files that is under way: an iterator of its frames, each read and checked when it is asked for. What a signal handler
-/// raises while pairs are looked for, KeyboardInterrupt after Ctrl-C, ends that early; the same frame is then the next one.
+/// Check of files that is under way: an iterator of its frames, made by pliant.check.
+///
+/// Each Frame is read and checked when it is asked for. An exception that a signal handler raises
+/// in the main thread, as after Ctrl-C, ends a search early. The same frame is then the next one.
+/// Seams that part, or do not quite close, are a UserWarning after the last frame.
+///
+/// Going on raises pliant.Error: CannotRead, TooLarge, BadPosition, Busy.
 #[pyclass(frozen, module = "pliant")]
 pub(crate) struct Check {
     running: Mutex<Running>,
-    /// A frame that was checked and not handed out, for what meets on the way from there was interrupted.
+    /// A frame that was checked and not handed out, because its interval was interrupted.
     waiting: Mutex<Option<Checked>>,
-    /// One for each path, or for each piece or group that it is split into.
+    /// Bodies of the check, a tuple of Body: one for each path, piece or group, in order.
     #[pyo3(get)]
     bodies: Py<PyTuple>,
-    /// How many frames there are in the files.
+    /// Number of frames in the files, an int.
     #[pyo3(get)]
     frame_count: usize,
     is_warned: AtomicBool,
     raised: Raised,
     weld_tolerance: f64,
-    /// What to say at the end, if nothing is found until then.
+    /// Warning for the end, if nothing is found until then.
     unlike_sizes: Option<String>,
     has_found: AtomicBool,
 }
 
-/// A body or a group, as it is named: by its name, or a body by its number.
+/// Name of a body or group, or the number of a body.
 #[derive(FromPyObject)]
 pub(crate) enum Name {
     Number(usize),
@@ -70,7 +78,7 @@ impl Changed {
     }
 }
 
-/// Pairs that are left out: those of a frame, or of a file.
+/// Baseline: a frame or a file whose pairs are left out.
 #[derive(FromPyObject)]
 pub(crate) enum Known {
     Frame(i64),
@@ -98,39 +106,71 @@ impl Name {
     }
 }
 
-/// Checks files as the program `pliant check` does: each path is a body, a mesh (.obj, .ply, .stl), a sequence (.npz), a mesh with
-/// its positions ("mesh.obj+walk.pc2", .mdd, .npy), or a pattern such as "cloth_*.obj" whose files are its frames; of a glTF file (.glb,
-/// .gltf, .vrm) each body, or one ("scene.glb#arm"); a group of an OBJ file, a solid of an STL file or of a pattern ("scan.obj#arm"); of a USD file (.usd, .usda, .usdc, .usdz; pip install 'pliant[usd]') each mesh that is
-/// seen, or those at or below a prim ("walk.usdc#/scene/shirt"). Returns an iterator of frames, each read and checked when it is asked for.
+/// Checks files frame by frame, as the program `pliant check` does: an iterator of Frame.
 ///
-///   itself    check each body against itself too; one body alone always is
-///   within    a distance, at least 0: the pairs are those of triangles of different bodies that are at most so far apart, and
-///             Frame.distance is that of the nearest; not of one body alone, nor with itself or swept
-///   crossing  leave out places where surfaces only touch, as along a cut: where no triangles cross and no surface passes through another,
-///             not even exactly at edges and vertices; Frame.only_touching says how many pairs. Where it is not clear what a side
-///             is, a place stays. Not with within
-///   swept     besides what intersects in a frame, what meets on the way from it to the next, every corner on a straight line:
-///             Frame.interval; not with baseline. A frame is then handed out when the next has been read
-///   first     stop at the first pair of each frame; of what meets on the way to the next, the first
-///   weld      weld vertices where boundary edges coincide, in each frame; else seams are intersections
-///   split     "components": each connected piece of a file is a body, "cloth.ply#1", "cloth.ply#2", ... in the order of their
-///             lowest triangle; "groups": each group of an OBJ file, by o and g, is one, "scan.obj#arm", each solid of an STL file too, and what has none one body;
-///             triangles keep the numbers that they have in the file, and those that share a vertex of it are left out
-///   groups    names for several bodies, {"soft": ["shirt.ply", 2]}, to be used in ignore; a body has the name of its path
-///             ("scene.glb#arm"; "scene.glb" stands for all bodies of it, "scan.obj#arm" for "scan.obj#arm/hand" too), or its number
-///   ignore    pairs of bodies or groups that do not meet, [("soft", "hair.ply")]; twice the same: none of these bodies meets
-///             another of them, or itself
-///   weld_tolerance  join boundary edges besides that are no further apart than this times the diagonal of their body, in each frame
-///   baseline  a frame, or a file that `pliant check --format json` wrote: the pairs that intersect in it are left out in all
-///   skip_degenerate  leave out pairs with a triangle that has no area
-///   places    join the pairs of each frame into places, whose numbers are the same from frame to frame: Frame.places, and of all
-///             frames so far Check.places; not with first
-///   frames    a range: only these frames; others are passed over, and not read where the format allows it
-///   clip      the animation of glTF files, by name; the first if none is named
-///   fps       frames a second at which animations of glTF files are evaluated
-///   threads   how many share the work of a frame; no number changes an answer
+///     for frame in pliant.check("cloth_*.obj", "body.npz", itself=True):
+///         print(frame.frame, frame.count, frame.pairs)
+///
+/// Each path is a body, or several:
+///
+/// - a mesh: .obj, .ply, .stl
+/// - a sequence: .npz, or a pattern such as "cloth_*.obj" whose files are its frames
+/// - a mesh with its positions: "mesh.obj+walk.pc2", .mdd or .npy
+/// - glTF (.glb, .gltf, .vrm): each body of the file, or one, "scene.glb#arm"
+/// - a group of an OBJ file, or a solid of an STL file, also of a pattern: "scan.obj#arm"
+/// - USD (.usd, .usda, .usdc, .usdz), with pip install 'pliant[usd]': each mesh that is seen, or
+///   those at or below a prim, "walk.usdc#/scene/shirt"
+///
+/// Returns a Check. Who is asked about:
+///
+/// - itself: also each body with itself; a body alone always is
+/// - split: "components" makes each connected piece of a file a body, "cloth.ply#1", "cloth.ply#2",
+///   ... by lowest triangle. "groups" makes each group (o, g) of an OBJ file or solid of an STL
+///   file one, "scan.obj#arm". Triangles keep their numbers in the file, and those that share a
+///   vertex of it are left out
+/// - groups: names for several bodies, {"soft": ["shirt.ply", 2]}, for ignore. A body is named by
+///   its path or its number. "scene.glb" stands for all its bodies, "scan.obj#arm" also for
+///   "scan.obj#arm/hand"
+/// - ignore: pairs of bodies or groups that do not meet, [("soft", "hair.ply")]. One name twice
+///   means that none of its bodies meets another or itself
+///
+/// What is found:
+///
+/// - within: a distance of at least 0, in the unit of the files. Finds pairs of triangles of
+///   different bodies at most that far apart; Frame.distance is the least. Not for one body alone,
+///   with itself, crossing or swept
+/// - crossing: leaves out places where surfaces only touch, as along a cut. No triangles cross
+///   there, and no surface passes through another, not even exactly at edges and vertices. Where
+///   sides are unclear a place stays. Frame.only_touching counts the pairs. Not with within
+/// - swept: also what meets on straight lines from each frame to the next: Frame.interval. A frame
+///   comes when the next has been read. Not with within or baseline
+/// - first: stops at the first pair of each frame, and of each interval
+/// - baseline: a frame number, or a file that `pliant check --format json` wrote. Pairs that
+///   intersect there are left out everywhere
+/// - skip_degenerate: leaves out pairs with a triangle that has no area
+/// - places: joins the pairs of a frame into places with numbers that last: Frame.places,
+///   Check.places. Not with first
+///
+/// How files are read:
+///
+/// - weld: joins vertices where boundary edges coincide, in each frame; else seams are
+///   intersections
+/// - weld_tolerance: also joins boundary edges that are apart by at most this fraction of the
+///   diagonal of their body
+/// - frames: a range, such as range(100, 200); others are passed over, and not read where the
+///   format allows it
+/// - clip: name of the glTF animation; None is the first
+/// - fps: frames a second at which glTF animations are evaluated
+/// - threads: how many share the work of a frame; no number changes an answer
+///
+/// Raises pliant.Error: CannotRead, BadOption, TooLarge, BadPosition. What is odd but no error,
+/// such as numbered files that are given one by one, is a UserWarning.
 #[pyfunction]
-#[pyo3(signature = (*paths, itself=false, within=None, crossing=false, swept=false, first=false, weld=true, weld_tolerance=0.0, split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false, places=false, frames=None, clip=None, fps=30.0, threads=1))]
+#[pyo3(signature = (
+    *paths, itself=false, within=None, crossing=false, swept=false, first=false, weld=true,
+    weld_tolerance=0.0, split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false,
+    places=false, frames=None, clip=None, fps=30.0, threads=1
+))]
 #[expect(
     clippy::too_many_arguments,
     clippy::fn_params_excessive_bools,
@@ -212,7 +252,8 @@ pub(crate) fn check(
     let running = raised.rather(py.detach(|| caught(begin)))?;
     let unlike_sizes = running.unlike_sizes().map(|[(large, most), (small, least)]| {
         format!(
-            "nothing was found, and the longest side of {} is {most:.3e}, that of {} {least:.3e}: are they of one unit?",
+            "nothing was found, and the longest side of {} is {most:.3e}, that of {} {least:.3e}: \
+             are they of one unit?",
             shown(large),
             shown(small)
         )
@@ -289,7 +330,7 @@ impl Check {
             interval = interval.transpose()?)?))
     }
 
-    /// The places of the frames so far, those with the most pairs in a frame first; of very many, a thousand.
+    /// Places of the frames so far, a tuple of at most 1000 Life, most pairs in a frame first.
     #[getter]
     fn places<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyTuple>> {
         let (_, lives) = alone_with(py, &self.running, |running| Ok(running.places()))?;
@@ -303,14 +344,14 @@ impl Check {
     }
 }
 
-/// Says something that is no error.
+/// Gives a warning: a message that is no error.
 fn warn(py: Python<'_>, text: &str) -> PyResult<()> {
     let text = CString::new(text).unwrap_or_default();
     PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)
 }
 
 impl Check {
-    /// After the last frame says, once, where pairs lie at seams that are not quite closed, and which seams part.
+    /// Warns once, after the last frame, of seams that part and pairs at seams not quite closed.
     fn warn_of_seams(&self, py: Python<'_>) -> Result<()> {
         if self.is_warned.swap(true, Ordering::Relaxed) {
             return Ok(());
@@ -330,7 +371,9 @@ impl Check {
             let at_seams = sources.filter_map(|(number, source)| {
                 let at_seams = running.at_seams(number)?;
                 Some(format!(
-                    "{}: {} of its {} pairs with itself in frame {} lie where boundary edges nearly coincide, up to {:.1e} of its size apart; if those are seams, weld_tolerance={:e} joins them",
+                    "{}: {} of its {} pairs with itself in frame {} lie where boundary edges \
+                     nearly coincide, up to {:.1e} of its size apart; if those are seams, \
+                     weld_tolerance={:e} joins them",
                     shown(source.name()),
                     at_seams.pairs,
                     at_seams.of,
@@ -364,7 +407,7 @@ fn from_zero(baseline: i64) -> Result<usize> {
         .map_err(|_| refused!(BadOption: "baseline is {baseline}; frames are counted from 0"))
 }
 
-/// What a range of Python's says.
+/// Frames of a range of Python.
 fn range_of_frames(frames: &Bound<'_, PyRange>) -> Result<Frames> {
     let count = frames.len()?;
     let from_zero = [frames.start()?, frames.step()?].map(usize::try_from);
@@ -375,7 +418,7 @@ fn range_of_frames(frames: &Bound<'_, PyRange>) -> Result<Frames> {
     Ok(Frames { start, step, count })
 }
 
-/// What is known of the bodies before the first frame is checked.
+/// Facts about the bodies before the first frame is checked.
 fn facts<'py>(py: Python<'py>, check: &Running) -> PyResult<Bound<'py, PyTuple>> {
     let faces = check.sources().iter().map(|source| {
         let faces = source.faces();
@@ -390,7 +433,7 @@ fn facts<'py>(py: Python<'py>, check: &Running) -> PyResult<Bound<'py, PyTuple>>
     tuple(py, facts)
 }
 
-/// A tuple of what is made one by one.
+/// Tuple of objects that are made one by one.
 fn tuple<'py>(
     py: Python<'py>,
     made: impl Iterator<Item = PyResult<Any<'py>>>,
@@ -398,7 +441,7 @@ fn tuple<'py>(
     PyTuple::new(py, made.collect::<PyResult<Vec<_>>>()?)
 }
 
-/// What is known of one.
+/// Facts about one body, a `Body` of Python.
 fn fact<'py>(
     py: Python<'py>,
     body: BodyFacts,
@@ -410,7 +453,7 @@ fn fact<'py>(
         welded = welded, source = body.source, first_triangle = body.first_triangle)
 }
 
-/// What meets on the way from a frame to the next.
+/// Impacts on the way from a frame to the next, an `Interval` of Python.
 fn way(py: Python<'_>, interval: Interval) -> PyResult<Any<'_>> {
     let first = interval.first.map(|first| {
         let (kind, pair) = match &first {

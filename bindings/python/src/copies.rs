@@ -1,20 +1,21 @@
-//! Copies of arrays, to which nobody else can write: what is checked is what is kept.
+//! Private copies of arrays, to which nobody else can write: what is checked is what is kept.
 //!
-//! An array of a caller's may be written to while it is read: by another thread of Python's, which runs while a call computes, or
-//! by numpy, which lets go of the interpreter lock over large arrays. A number that is looked at twice, once to check it and once
-//! to take it, may be another by then; and Rust may not be lent memory that changes at all. So numpy copies the numbers, each is
-//! read once, and Rust is lent the copy. Which of the numbers that were there meanwhile it holds is not known, nor promised.
+//! A caller's array may be written to while it is read. Another thread of Python may run while a
+//! call computes, and numpy releases the interpreter lock over large arrays. A number that is read
+//! twice, to check it and to take it, may then differ; and Rust may not borrow memory that changes.
+//! So numpy copies each number once, and Rust borrows the copy. It holds some state of each number
+//! during the copy; which one is not promised.
 
 use crate::error::{Result, refused};
 use numpy::{Element, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods, dtype};
 use pyo3::prelude::*;
 use pyo3::types::PySlice;
 
-/// Rows of three numbers in an array that was never handed out.
+/// Copy of rows of three numbers, in an array that was never handed out.
 pub(crate) struct Copied<'py, T: Element>(PyReadonlyArray2<'py, T>);
 
 impl<T: Element> Copied<'_, T> {
-    /// As Rust has them.
+    /// The rows as a slice.
     pub(crate) fn rows(&self) -> Result<&[[T; 3]]> {
         let numbers = self.0.as_slice().map_err(PyErr::from)?;
         let (rows, _) = numbers.as_chunks();
@@ -22,7 +23,7 @@ impl<T: Element> Copied<'_, T> {
     }
 }
 
-/// Room for a copy, kept from call to call: as much as the largest so far.
+/// Buffer for copies, kept from call to call, as large as the largest copy so far.
 pub(crate) struct Room<T>(Option<Py<PyArray2<T>>>);
 
 impl<T> Default for Room<T> {
@@ -32,14 +33,15 @@ impl<T> Default for Room<T> {
 }
 
 impl<T: Element> Room<T> {
-    /// How many bytes it is.
+    /// Bytes of the buffer.
     pub(crate) fn held(&self, py: Python<'_>) -> usize {
         let room = self.0.as_ref();
         room.map_or(0, |room| room.bind(py).len() * size_of::<T>())
     }
 
-    /// Copies an (n, 3) array here, over the copy before. What is of another type is converted: the caller knows that this
-    /// changes no number.
+    /// Copies an (n, 3) array here, over the copy before.
+    ///
+    /// Another type is converted: the caller knows that this changes no number.
     pub(crate) fn copy<'py, U: Element>(
         &mut self,
         given: &Bound<'py, PyArray2<U>>,
@@ -47,7 +49,7 @@ impl<T: Element> Room<T> {
         let (py, rows) = (given.py(), given.shape()[0]);
         let room = match self.0.take().map(|room| room.into_bound(py)) {
             Some(room) if room.shape()[0] >= rows => room,
-            // Before there is more, there is none.
+            // Freed first, so that both are never there at once.
             too_small => {
                 drop(too_small);
                 new(py, rows)?
@@ -69,7 +71,7 @@ pub(crate) fn anew<'py, T: Element>(given: &Bound<'py, PyArray2<T>>) -> Result<C
     fill(given, &new(given.py(), given.shape()[0])?)
 }
 
-/// An array (n, 3), not yet written; numpy raises if there is no memory for it.
+/// Allocates an array (n, 3); numpy raises if there is no memory for it.
 fn new<T: Element>(py: Python<'_>, rows: usize) -> PyResult<Bound<'_, PyArray2<T>>> {
     let array = py
         .import("numpy")?

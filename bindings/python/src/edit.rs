@@ -1,19 +1,20 @@
-//! `Edit` as Python sees it: changes of a body's mesh, made all at once or not at all; and what they come to, as named tuples of arrays.
+//! `Edit` of Python: changes of a body's mesh, made all at once or not at all.
+//!
+//! Their results, `Edited`, `Piece` and `Fused`, are named tuples of arrays.
 
 use crate::answers::{Any, Column, class};
-use crate::arrays::{self, CopiedCoordinates, CopiedFaces};
+use crate::arrays::{self, CopiedCoordinates, CopiedFaces, Number, Triangle};
 use crate::error::{Refused, Result, alone};
 use crate::state::{State, of_body};
 use pliant::{BodyId, Edited, Error, ErrorKind, Fused, Piece};
 use pliant_check::{AnyWorld, double, single};
 use pyo3::prelude::*;
-use pyo3::types::PyList;
 use std::sync::Mutex;
 
-/// What numbers of triangles are called.
+/// Name and meaning of an array of triangle numbers, for messages.
 const TRIANGLES: [&str; 2] = ["triangles", "which triangles they are"];
 
-/// An edit of a world of either precision.
+/// Edit of a world of either precision.
 pub(crate) enum AnyEdit {
     F32(pliant::Edit<f32>),
     F64(pliant::Edit<f64>),
@@ -54,7 +55,7 @@ macro_rules! step {
 }
 
 impl AnyEdit {
-    /// Of a body of a world, without steps.
+    /// Begins an edit without steps, of a body of a world.
     pub(crate) fn of(state: &State, body: BodyId) -> Result<Self, Error> {
         Ok(match &state.world {
             AnyWorld::F32(world) => Self::F32(world.edit(body)?),
@@ -79,17 +80,25 @@ impl AnyEdit {
     }
 }
 
-/// Changes of one body's mesh, to be made all at once by World.apply, or not at all. World.edit gives one that has no steps yet.
+/// Changes of one body's mesh, which World.apply makes all at once or not at all.
 ///
-/// Each step goes on from the mesh that the steps before it leave. Numbers stay: a triangle or a vertex that goes leaves its number empty,
-/// and what comes is numbered behind all others, so that its numbers are known at once. An empty number is used again where a step names it.
-/// A vertex that loses its last triangle by the edit goes at its end; one that never had any stays. One that is merged into another is
-/// empty at once, and may be placed again by a later step. An edit is of the world that began it: no other makes its changes, not even a
-/// copy.
+/// World.edit begins one without steps. Each step goes on from the mesh that the steps before it
+/// leave. Steps are checked by World.apply; a step itself raises only for its arrays, with
+/// pliant.Error: BadArray, Precision or VertexOutOfRange.
+///
+/// Numbers stay. A triangle or vertex that goes leaves its number empty. What comes is numbered
+/// behind all others, so its numbers are known at once. A step may use an empty number again by
+/// naming it.
+///
+/// A vertex that loses its last triangle goes at the end of the edit; one that never had any stays.
+/// A vertex that is merged into another is empty at once, and a later step may place it again. An
+/// edit is of the world that began it, and no copy of that world takes it.
 ///
 ///     edit = world.edit(body)
-///     new = edit.split_vertex(0, [1])     # triangle 1 is torn off at vertex 0
-///     world.apply(edit)
+///     new = edit.split_vertex(0, [1])     # tears triangle 1 off vertex 0
+///     edited = world.apply(edit)          # edited.new_vertices == [new]
+///
+/// Cost: O(1) a step, and the copy of its arrays.
 #[pyclass(frozen, module = "pliant")]
 pub(crate) struct Edit(Mutex<AnyEdit>);
 
@@ -102,7 +111,7 @@ impl Edit {
         work(&mut *alone(&self.0)?)
     }
 
-    /// What is refused of arrays is about the body.
+    /// Returns a function that says of a refusal which body it is about.
     fn of_body(&self) -> Result<impl Fn(Refused) -> Refused> {
         let body = self.with(|edit| Ok(edit.body()))?;
         Ok(move |refused: Refused| refused.of_body(Some(body)))
@@ -111,12 +120,16 @@ impl Edit {
 
 #[pymethods]
 impl Edit {
-    /// The body whose mesh it is.
+    /// Number of the body whose mesh it changes.
     fn body(&self) -> Result<u32> {
         self.with(|edit| Ok(edit.body().0))
     }
 
-    /// Adds vertices, positions (n, 3) as World.add takes them. Returns their numbers, (n,) uint32.
+    /// Adds vertices at positions (k, 3); returns their numbers, (k,) uint32.
+    ///
+    /// Positions are float32 or float64, as World.add takes them. The vertices have group 0.
+    ///
+    /// Raises pliant.Error: BadArray, Precision.
     fn add_vertices(&self, positions: &Any<'_>) -> Result<Column<u32>> {
         let about = self.of_body()?;
         let copied = CopiedCoordinates::of(positions).map_err(about)?;
@@ -124,32 +137,41 @@ impl Edit {
         Ok(Column(added.collect()))
     }
 
-    /// Uses an empty number of a vertex again, for one at a position, (3,).
-    fn place_vertex(&self, vertex: u32, position: &Any<'_>) -> Result<()> {
+    /// Uses an empty vertex number again, at a position (3,) of float32 or float64.
+    ///
+    /// Raises pliant.Error: BadArray, Precision. World.apply raises VertexInUse if it is not empty.
+    fn place_vertex(&self, vertex: Number, position: &Any<'_>) -> Result<()> {
         let about = self.of_body()?;
-        let one = PyList::new(position.py(), [position])?;
-        let copied = CopiedCoordinates::of(one.as_any()).map_err(about)?;
+        let copied = arrays::position(position).map_err(about)?;
         step!(self, edit, rows of copied.get()? => {
             if let Some(&position) = rows.first() {
-                edit.place_vertex(vertex, position);
+                edit.place_vertex(vertex.0, position);
             }
         })
     }
 
-    /// Adds a vertex in the place where another is, which these triangles, (k,), have for a corner from now on instead of the other.
-    /// Returns its number. It has the group of the other.
-    fn split_vertex(&self, vertex: u32, triangles: &Any<'_>) -> Result<u32> {
+    /// Adds a vertex in the place of another, for the given triangles; returns its number.
+    ///
+    /// triangles is (k,) of any integer type. They have the new vertex as a corner instead of the
+    /// other. The new vertex has the group of the other.
+    ///
+    /// Raises pliant.Error: BadArray. World.apply raises NotACorner if a triangle does not have the
+    /// vertex.
+    fn split_vertex(&self, vertex: Number, triangles: &Any<'_>) -> Result<u32> {
         let triangles = arrays::numbers(triangles, TRIANGLES)?;
-        step!(self, edit => edit.split_vertex(vertex, &triangles))
+        step!(self, edit => edit.split_vertex(vertex.0, &triangles))
     }
 
-    /// All triangles that have the vertex gone have kept instead from now on, which stays where it is; gone goes.
-    fn merge_vertices(&self, kept: u32, gone: u32) -> Result<()> {
-        step!(self, edit => edit.merge_vertices(kept, gone))
+    /// Replaces the vertex gone by the vertex kept in all triangles. kept stays where it is.
+    fn merge_vertices(&self, kept: Number, gone: Number) -> Result<()> {
+        step!(self, edit => edit.merge_vertices(kept.0, gone.0))
     }
 
-    /// Adds triangles, faces (m, 3) as World.add takes them, of vertices that are there or were added before. Returns their numbers,
-    /// (m,) uint32.
+    /// Adds triangles, faces (k, 3) of any integer type; returns their numbers, (k,) uint32.
+    ///
+    /// Corners are vertices that are there, or that an earlier step added.
+    ///
+    /// Raises pliant.Error: BadArray, VertexOutOfRange.
     fn add_triangles(&self, faces: &Any<'_>) -> Result<Column<u32>> {
         let vertices = step!(self, edit => edit.vertex_count())?;
         let about = self.of_body()?;
@@ -159,19 +181,21 @@ impl Edit {
         Ok(Column(added.collect()))
     }
 
-    /// Gives a triangle other corners, (3,), or uses an empty number again.
-    fn set_triangle(&self, triangle: u32, corners: [u32; 3]) -> Result<()> {
-        step!(self, edit => edit.set_triangle(triangle, corners))
+    /// Gives a triangle other corners, three vertex numbers; an empty number is used again.
+    fn set_triangle(&self, triangle: Number, corners: Triangle) -> Result<()> {
+        step!(self, edit => edit.set_triangle(triangle.0, corners.0))
     }
 
-    /// Takes triangles, (k,), out.
+    /// Removes triangles, (k,) of any integer type. Their numbers become empty.
+    ///
+    /// Raises pliant.Error: BadArray.
     fn remove_triangles(&self, triangles: &Any<'_>) -> Result<()> {
         let triangles = arrays::numbers(triangles, TRIANGLES)?;
         step!(self, edit => edit.remove_triangles(&triangles))
     }
 }
 
-/// An Edited.
+/// Makes an `Edited` of Python.
 pub(crate) fn edited(py: Python<'_>, edited: Edited) -> PyResult<Any<'_>> {
     class!(py, "Edited").call1((
         Column(edited.new_triangles),
@@ -182,13 +206,13 @@ pub(crate) fn edited(py: Python<'_>, edited: Edited) -> PyResult<Any<'_>> {
     ))
 }
 
-/// A Piece.
+/// Makes a `Piece` of Python.
 pub(crate) fn piece(py: Python<'_>, piece: Piece) -> PyResult<Any<'_>> {
     let numbers = (Column(piece.triangles), Column(piece.vertices));
     class!(py, "Piece").call1((piece.body.0, numbers.0, numbers.1))
 }
 
-/// A Fused.
+/// Makes a `Fused` of Python.
 pub(crate) fn fused(py: Python<'_>, fused: Fused) -> PyResult<Any<'_>> {
     class!(py, "Fused").call1((Column(fused.triangles), Column(fused.vertices)))
 }

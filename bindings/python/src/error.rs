@@ -1,17 +1,18 @@
-//! Every refusal as a `pliant.Error`, with the facts that the Rust error has, as attributes, and behind its message the keyword of
-//! Python that helps, where there is one.
+//! Refusals as `pliant.Error`: facts of the Rust error as attributes, advice in words of Python.
 //!
-//! The class itself is Python's, in `_types.py`: there it is a few lines, and can be pickled.
+//! A message of the Rust libraries says what is wrong and where, and names no keyword. Functions
+//! `after_...` append what to do in Python. The class is in `_types.py`: there it is a few lines,
+//! and can be pickled.
 
 use pliant::{BodyId, ErrorKind};
-use pliant_io::Reason;
+use pliant_io::{Place, Reason};
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
 use std::fmt::{Debug, Display};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Mutex, MutexGuard, TryLockError};
 
-/// What a call ends in.
+/// Result of a call.
 pub(crate) type Result<T, E = Refused> = std::result::Result<T, E>;
 
 /// A call that was refused, or an exception of Python's on its way through.
@@ -23,7 +24,7 @@ pub(crate) enum Refused {
         message: String,
         facts: Vec<(&'static str, Fact)>,
     },
-    /// What a visitor, a signal handler, or an object that was to be an array, raised.
+    /// An exception of a visitor, a signal handler, or an object that was to be an array.
     Python(PyErr),
 }
 
@@ -35,7 +36,7 @@ pub(crate) enum Fact {
     Text(String),
 }
 
-/// What is a fact, and of which sort.
+/// Conversions to a fact of each sort.
 macro_rules! facts {
     ($($type:ty, $value:ident => $fact:expr;)*) => {
         $(impl From<$type> for Fact {
@@ -57,7 +58,7 @@ facts! {
 }
 
 impl Refused {
-    /// A refusal of these bindings' own; `kind` is one of those that `pliant.Error` describes.
+    /// A refusal by these bindings; `pliant.Error` describes each `kind`.
     pub(crate) fn new(kind: &str, message: impl Into<String>) -> Self {
         Self::Error {
             kind: kind.to_owned(),
@@ -66,7 +67,7 @@ impl Refused {
         }
     }
 
-    /// With a fact more.
+    /// Adds a fact.
     pub(crate) fn with(mut self, name: &'static str, fact: impl Into<Fact>) -> Self {
         if let Self::Error { facts, .. } = &mut self {
             facts.push((name, fact.into()));
@@ -74,7 +75,7 @@ impl Refused {
         self
     }
 
-    /// With what it is about before the message.
+    /// Puts a subject before the message.
     pub(crate) fn about(mut self, what: impl Display) -> Self {
         if let Self::Error { message, .. } = &mut self {
             *message = format!("{what}: {message}");
@@ -82,7 +83,7 @@ impl Refused {
         self
     }
 
-    /// With what to do, where there is something.
+    /// Appends advice, where there is some.
     pub(crate) fn advising(mut self, advice: Option<&str>) -> Self {
         if let (Self::Error { message, .. }, Some(advice)) = (&mut self, advice) {
             message.push_str("; ");
@@ -91,7 +92,18 @@ impl Refused {
         self
     }
 
-    /// About an array that was given for a body, or for a new one.
+    /// Names the argument that a refused distance was given as.
+    pub(crate) fn distance_is(self, argument: &str) -> Self {
+        match &self {
+            Self::Error { kind, .. } if kind == "BadDistance" => {
+                let advice = format!("this is the argument {argument}");
+                self.advising(Some(&advice))
+            }
+            _ => self,
+        }
+    }
+
+    /// Names the body that an array was given for, or a new one.
     pub(crate) fn of_body(self, body: Option<BodyId>) -> Self {
         match body {
             Some(body) => self.about(body).with("body", body),
@@ -100,7 +112,7 @@ impl Refused {
     }
 }
 
-/// A refusal with a message that is put together.
+/// A refusal with a formatted message.
 macro_rules! refused {
     ($kind:ident: $($message:tt)*) => {
         $crate::error::Refused::new(stringify!($kind), format!($($message)*))
@@ -108,14 +120,14 @@ macro_rules! refused {
 }
 pub(crate) use refused;
 
-/// The name of a variant, which `Debug` prints first.
+/// Name of a variant, which `Debug` prints first.
 fn variant(value: &impl Debug) -> String {
     let text = format!("{value:?}");
     let end = text.find(|c: char| !c.is_alphanumeric());
     text[..end.unwrap_or(text.len())].to_owned()
 }
 
-/// A refusal with the facts of a kind of error. Of others the kind, and the body, say it all.
+/// Adds the facts of some kinds of error. Kind and body are all there is to say of the others.
 macro_rules! with_facts {
     ($refused:ident, $error:expr; $($kind:ident { $($fact:ident),* })*) => {
         match $error {
@@ -129,7 +141,8 @@ macro_rules! with_facts {
 
 impl From<pliant::Error> for Refused {
     fn from(error: pliant::Error) -> Self {
-        let mut refused = Self::new(&variant(&error.kind), error.to_string());
+        let mut refused = Self::new(&variant(&error.kind), error.to_string())
+            .advising(after_calling(&error.kind));
         if let Some(body) = error.body {
             refused = refused.with("body", body);
         }
@@ -152,11 +165,60 @@ impl From<pliant::Error> for Refused {
     }
 }
 
-/// What to do about a file that `pliant.check` cannot read, in Python's words; the message says only what is wrong.
-fn after_reading(reason: &Reason) -> Option<&'static str> {
-    match reason {
+/// Advice about a call that the library refused.
+pub(crate) fn after_calling(kind: &ErrorKind) -> Option<&'static str> {
+    Some(match kind {
+        ErrorKind::TooLarge { .. } => "split the mesh",
+        ErrorKind::TooManyBodies => "go on with a new pliant.World()",
+        ErrorKind::VertexOutOfRange {
+            vertex, vertices, ..
+        } if *vertex as usize == *vertices => "if the faces are counted from 1, give faces - 1",
+        ErrorKind::WrongLength { .. } => "give one for each vertex, empty ones included",
+        ErrorKind::NotWritten { .. } => "write must fill every row of the array that it is given",
+        ErrorKind::OutsideLooseBox { .. } => "World.set_loose_box does either",
+        ErrorKind::NoSuchBody => "World.bodies() lists all that are there",
+        ErrorKind::SameBody => {
+            "name two different bodies, or give Selection.within(body) where a selection is taken"
+        }
+        ErrorKind::TooManyHits { .. } => "this is at_most=, and visit_some(...) makes no list",
+        ErrorKind::BadMargin { .. } => "this is the argument radius",
+        ErrorKind::DifferentCounts { .. } => "start and end have one row for each pair",
+        ErrorKind::EmptyTriangle { .. } => "Edit.set_triangle does that",
+        ErrorKind::EmptyVertex { .. } => "Edit.place_vertex does that",
+        ErrorKind::VertexInUse { .. } => "World.set_positions does that",
+        ErrorKind::NotACorner { .. } => "give split_vertex triangles that have it for a corner",
+        ErrorKind::OutdatedEdit => "World.edit begins one",
+        _ => return None,
+    })
+}
+
+/// Advice about a file that `pliant.check` cannot read.
+fn after_reading(error: &pliant_io::Error) -> Option<&'static str> {
+    match error.reason() {
+        Reason::NotFound if matches!(error.place(), Place::Part(..)) => {
+            Some("the glTF file keeps data there: copy it along, to where that file is")
+        }
+        Reason::NotFound => Some("the path is taken from the current folder, os.getcwd()"),
+        Reason::NoMatch => Some("the pattern is taken from the current folder, os.getcwd()"),
+        Reason::Pattern(_) => Some("in a pattern, write [[] for the [ of a name"),
+        Reason::Io(_) => Some("see that you may read it and that its disk is there"),
+        Reason::Malformed(_)
+        | Reason::FewCorners { .. }
+        | Reason::RepeatedCorners { .. }
+        | Reason::VertexIndex { .. }
+        | Reason::Coordinate { .. }
+        | Reason::NoVertices
+        | Reason::NoFaces
+        | Reason::NoFrames => Some("mend it, or export it again"),
+        Reason::Truncated(_) | Reason::Checksum { .. } => Some("copy it or export it again"),
         // Python has no say in how much memory a frame may take.
-        Reason::TooLarge { .. } => Some("split the mesh"),
+        Reason::TooMany { .. } | Reason::TooLarge { .. } => Some("split the mesh"),
+        Reason::OutOfMemory => Some("split the mesh, or free some memory"),
+        Reason::FacesDiffer { .. } | Reason::FaceCount { .. } | Reason::VertexCount { .. } => {
+            Some("export all of them from one mesh")
+        }
+        Reason::NoBody { .. } => Some("choose one of these"),
+        Reason::AfterError => Some("begin another pliant.check"),
         Reason::SeamsTooLarge { .. } => Some("split the mesh, or give weld=False"),
         Reason::SeamsTooDense | Reason::BadTolerance { .. } => Some("give another weld_tolerance="),
         Reason::BadRate { .. } => Some("give another fps="),
@@ -167,10 +229,17 @@ fn after_reading(reason: &Reason) -> Option<&'static str> {
     }
 }
 
-/// What to do about a check that cannot begin or go on, in Python's words.
+/// Advice about a check that cannot begin or go on.
 pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str> {
     use pliant_check::Error;
     match error {
+        Error::NoSources => Some("name files, as in pliant.check(\"cloth_*.obj\")"),
+        Error::FrameCounts { .. } => {
+            Some("export the same frames of each, or one frame of what stands still")
+        }
+        Error::Missing { .. } => Some("wait until it is written, then check again"),
+        Error::NoSuchFrame { .. } | Error::NoSuchName { .. } => Some("choose one of these"),
+        Error::AfterError => Some("begin another pliant.check"),
         Error::BadBaseline { .. } => {
             Some("name a file that `pliant check --format json` wrote of these bodies")
         }
@@ -194,7 +263,7 @@ pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str
         | Error::EndlessImpacts { .. } => {
             Some("ask for one pair of each frame with first=True, without crossing=")
         }
-        Error::OnePoint { .. } => Some("export the mesh without them"),
+        Error::OnePoint { .. } => Some("mend it, or export it without them"),
         _ => None,
     }
 }
@@ -202,7 +271,7 @@ pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str
 impl From<pliant_io::Error> for Refused {
     fn from(error: pliant_io::Error) -> Self {
         let refused = Self::new("CannotRead", error.to_string())
-            .advising(after_reading(error.reason()))
+            .advising(after_reading(&error))
             .with("file", error.file().display().to_string());
         // Displayed behind a file's name, a place begins with a comma.
         let place = error.place().to_string();
@@ -246,7 +315,7 @@ fn raised(
     Ok(PyErr::from_value(error))
 }
 
-/// Does `work` on what `mutex` holds, without the interpreter lock.
+/// Does `work` on the value of `mutex`, without the interpreter lock.
 pub(crate) fn alone_with<S: Send, T: Send>(
     py: Python<'_>,
     mutex: &Mutex<S>,
@@ -255,10 +324,11 @@ pub(crate) fn alone_with<S: Send, T: Send>(
     py.detach(|| caught(|| work(&mut *alone(mutex)?)))
 }
 
-/// What some work ends in. A panic, which is a bug, is an error like others: what Python makes of panics by itself is no `Exception`,
-/// and ends programs that meant to go on.
+/// Does `work`, and turns a panic, which is a bug, into an error like others.
+///
+/// The class that pyo3 has for panics is no `Exception`, and ends programs that meant to go on.
 pub(crate) fn caught<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
-    // What the work had in hand is behind a lock, which a panic leaves poisoned, or gone.
+    // State of the work is behind a lock, which a panic poisons, or gone.
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
         let text = panic.downcast_ref::<String>().map(String::as_str);
         let text = text.or_else(|| panic.downcast_ref().copied());
@@ -267,9 +337,9 @@ pub(crate) fn caught<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
     })
 }
 
-/// What `mutex` holds, for one call alone.
+/// Locks `mutex` for one call, or refuses if another call has it.
 ///
-/// Another call that is under way, of another thread or of this one with a visitor, is not waited for.
+/// Waiting could last for ever: the other call may be this thread's own, with a visitor.
 pub(crate) fn alone<S>(mutex: &Mutex<S>) -> Result<MutexGuard<'_, S>> {
     mutex.try_lock().map_err(|taken| match taken {
         TryLockError::WouldBlock => refused!(Busy:

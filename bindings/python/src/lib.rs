@@ -1,34 +1,34 @@
-//! The extension module of the Python package `pliant`: the Rust library under the same names, numpy in and out.
+//! Extension module of the Python package `pliant`: the Rust library under the same names.
 //!
 //! Files use only those above them in this list:
 //!
 //! | file | idea |
 //! |---|---|
-//! | `error.rs` | every refusal as a `pliant.Error` |
+//! | `error.rs` | refusals as `pliant.Error`, and what to do about them in words of Python |
 //! | `signals.rs` | Ctrl-C while a query computes |
-//! | `answers.rs` | what calls answer with: arrays made of vectors, named tuples |
+//! | `answers.rs` | answers: arrays made of vectors, named tuples |
 //! | `options.rs` | the keyword arguments of a world |
-//! | `copies.rs` | copies of arrays, to which nobody else can write: what is checked is what is kept |
+//! | `copies.rs` | private copies of arrays, so that what is checked is what is kept |
 //! | `arrays.rs` | numpy arrays of callers |
 //! | `selection.rs` | `Selection`, and the numbers of bodies |
 //! | `state.rs` | a world whose precision the first body fixes, for one call at a time |
 //! | `edit.rs` | `Edit`: changes of a mesh, made all at once |
-//! | `pickled.rs` | a world as pickle writes it down |
-//! | `queries/mod.rs` | what is the same for every kind of query |
+//! | `pickled.rs` | the state that pickle writes |
+//! | `queries/mod.rs` | the part that all kinds of queries share |
 //! | `queries/pairs.rs` | `Query`: intersections, and candidates |
 //! | `queries/close.rs` | `CloseQuery`: close pairs, with distance, direction and closest points |
 //! | `queries/contacts.rs` | `ContactQuery`: which triangles intersect, and how |
-//! | `queries/impacts.rs` | `ImpactQuery`: which elements meet on their way, and when |
+//! | `queries/impacts.rs` | `ImpactQuery`: which elements meet during a motion, and when |
 //! | `world.rs` | `World`, method by method |
-//! | `pair_impacts.rs` | when single pairs of elements meet |
-//! | `one_liners.rs` | questions that need no world to be made, and `pliant.reference` |
+//! | `pair_impacts.rs` | times of impact of single pairs of elements |
+//! | `one_liners.rs` | intersections of meshes in one call, and `pliant.reference` |
 //! | `usd.rs` | USD files, which Python evaluates |
 //! | `check.rs` | files, frame by frame |
-//! | `../python/pliant/` | the package: what is easier said in Python (named tuples, the exception), and the types |
+//! | `../python/pliant/` | the package: the exception, named tuples, stubs of types |
 //!
-//! What always holds: the interpreter lock is released while anything is computed; only the calls
-//! of a visitor, and looks for signals, take it back. A world or a check is in use by one call at a
-//! time, and another is refused, not left waiting, so that nothing here can wait for ever.
+//! The interpreter lock is released while anything is computed. Only calls of a visitor, and looks
+//! for signals, take it back. A world or a check is in use by one call at a time. Another call is
+//! refused, not left waiting, so nothing here can deadlock.
 
 mod answers;
 mod arrays;

@@ -1,4 +1,4 @@
-//! Questions that need no world to be made: two meshes, or one; and the same of the slow and obviously right reference.
+//! Intersections of two meshes, or of one with itself, in one call; and of `pliant.reference`.
 
 use crate::answers::{Any, Rows};
 use crate::arrays::{self, CopiedMesh};
@@ -13,29 +13,31 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-/// Copies a mesh; what is refused is about its name.
+/// Copies a mesh; a refusal is about its name.
 fn read<'py>(positions: &Any<'py>, faces: &Any<'py>, name: &str) -> Result<CopiedMesh<'py>> {
     CopiedMesh::of(faces, positions, |refused| refused.about(name))
 }
 
+/// Copies the arrays of a mesh object; a refusal is about its name.
 fn of_object<'py>(mesh: &Any<'py>, name: &str) -> Result<CopiedMesh<'py>> {
     let parts = arrays::parts_of_mesh(mesh).map_err(|refused| refused.about(name));
     let [faces, positions] = parts?;
     read(&positions, &faces, name)
 }
 
-/// Two meshes: two objects, or positions, faces, positions, faces.
+/// Copies two meshes: two objects, or positions, faces, positions, faces.
 fn two<'py>(given: &Bound<'py, PyTuple>) -> Result<[CopiedMesh<'py>; 2]> {
     match given.iter().collect::<Vec<_>>().as_slice() {
         [a, b] => Ok([of_object(a, "a")?, of_object(b, "b")?]),
         [va, fa, vb, fb] => Ok([read(va, fa, "a")?, read(vb, fb, "b")?]),
         _ => Err(wrong_number(
-            "two meshes, or four arrays: vertices and faces of one, vertices and faces of the other",
+            "two meshes, or four arrays: vertices and faces of one, vertices and faces of the \
+             other",
         )),
     }
 }
 
-/// One mesh: an object, or positions and faces.
+/// Copies one mesh: an object, or positions and faces.
 fn one<'py>(given: &Bound<'py, PyTuple>) -> Result<CopiedMesh<'py>> {
     match given.iter().collect::<Vec<_>>().as_slice() {
         [mesh] => of_object(mesh, "mesh"),
@@ -48,7 +50,7 @@ fn wrong_number(wanted: &str) -> Refused {
     Refused::Python(PyTypeError::new_err(format!("give {wanted}")))
 }
 
-/// Adds a mesh as a body; what is refused is about its name.
+/// Adds a mesh as a body; a refusal is about its name.
 fn add(
     state: &mut State,
     (faces, positions): (&[[u32; 3]], Positions<'_>),
@@ -58,7 +60,7 @@ fn add(
     added.map_err(|refused| refused.about(name))
 }
 
-/// All hits, without their bodies, which are known.
+/// All hits without their bodies, which are known.
 fn triangles_of_all(state: &mut State, of: Selection) -> Result<Rows<u32, 2>> {
     interruptible(|question| {
         let query = with_world!(&mut state.world, world => world.intersections(of));
@@ -67,10 +69,19 @@ fn triangles_of_all(state: &mut State, of: Selection) -> Result<Rows<u32, 2>> {
     })
 }
 
-/// intersection_pairs(va, fa, vb, fb, *, threads=1), or intersection_pairs(mesh_a, mesh_b, *, threads=1)
+/// Intersecting triangles of two meshes, (k, 2) uint32, sorted: triangle of a, triangle of b.
 ///
-/// All intersecting pairs of two meshes, sorted: (k, 2) uint32, triangle of a, triangle of b. Decided as in a world; if one is
-/// of float64, both are. threads: how many share the work.
+///     intersection_pairs(vertices_a, faces_a, vertices_b, faces_b, *, threads=1)
+///     intersection_pairs(mesh_a, mesh_b, *, threads=1)
+///
+/// Vertices are (n, 3) float32 or float64, faces (m, 3) of any integer type. A mesh object has
+/// .vertices and .faces or .triangles. If one mesh is of float64, both are decided in it. Decided
+/// exactly, as World.intersections does. threads is how many share the work, and changes no answer.
+///
+/// Raises pliant.Error: the kinds of World.add, and BadOption for threads. TypeError for another
+/// number of arguments.
+///
+/// Cost: building both trees, O(m log m); ask again and again with a World.
 #[pyfunction]
 #[pyo3(signature = (*meshes, threads=1))]
 pub(crate) fn intersection_pairs(
@@ -90,10 +101,13 @@ pub(crate) fn intersection_pairs(
     })
 }
 
-/// self_intersection_pairs(vertices, faces, *, threads=1), or self_intersection_pairs(mesh, *, threads=1)
+/// Self-intersections of a mesh, (k, 2) uint32, sorted: smaller triangle, larger triangle.
 ///
-/// All intersecting pairs of a mesh with itself, sorted: (k, 2) uint32, smaller triangle, larger triangle; triangles that
-/// share a vertex are left out. threads: how many share the work.
+///     self_intersection_pairs(vertices, faces, *, threads=1)
+///     self_intersection_pairs(mesh, *, threads=1)
+///
+/// Triangles that share a vertex are left out. Nothing is welded: weld seams first, or their sides
+/// are reported. Arguments, errors and cost are as for pliant.intersection_pairs.
 #[pyfunction]
 #[pyo3(signature = (*mesh, threads=1))]
 pub(crate) fn self_intersection_pairs(
@@ -111,9 +125,14 @@ pub(crate) fn self_intersection_pairs(
     })
 }
 
-/// intersection_pairs(va, fa, vb, fb), or intersection_pairs(mesh_a, mesh_b)
+/// Intersecting triangles of two meshes by brute force, (k, 2) uint32, sorted.
 ///
-/// What pliant.intersection_pairs must give: every pair of triangles decided, no tree, no box, exact signs. Slow.
+///     intersection_pairs(vertices_a, faces_a, vertices_b, faces_b)
+///     intersection_pairs(mesh_a, mesh_b)
+///
+/// pliant.intersection_pairs must give the same. No tree, no box, exact signs.
+///
+/// Raises pliant.Error: the kinds of World.add. Cost: O(m_a m_b).
 #[pyfunction]
 #[pyo3(signature = (*meshes))]
 pub(crate) fn reference_intersection_pairs(
@@ -130,9 +149,14 @@ pub(crate) fn reference_intersection_pairs(
     Ok(Rows(pairs?))
 }
 
-/// self_intersection_pairs(vertices, faces), or self_intersection_pairs(mesh)
+/// Self-intersections of a mesh by brute force, (k, 2) uint32, sorted.
 ///
-/// What pliant.self_intersection_pairs must give: every pair of triangles decided, no tree, no box, exact signs. Slow.
+///     self_intersection_pairs(vertices, faces)
+///     self_intersection_pairs(mesh)
+///
+/// pliant.self_intersection_pairs must give the same. No tree, no box, exact signs.
+///
+/// Raises pliant.Error: the kinds of World.add. Cost: O(m^2).
 #[pyfunction]
 #[pyo3(signature = (*mesh))]
 pub(crate) fn reference_self_intersection_pairs(

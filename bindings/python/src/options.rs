@@ -1,11 +1,11 @@
-//! The keyword arguments of a world, by the names and values of the program's flags.
+//! Keyword arguments of a world, with the names and values of the program's flags.
 
 use crate::error::{Result, refused};
 use pliant::{BroadPhase, Degree, Options, Partition, Update};
 use pyo3::prelude::*;
 use std::num::NonZeroU32;
 
-/// Names and what they mean.
+/// Names and their values.
 type Names<T> = [(&'static str, T)];
 
 const PARTITIONS: &Names<Partition> = &[
@@ -42,7 +42,7 @@ pub(crate) struct Keywords {
 }
 
 impl Keywords {
-    /// The library's options; a value that is none is refused, with those that are.
+    /// Converts to options of the library; refuses other values, and lists the valid ones.
     pub(crate) fn to_options(&self) -> Result<Options> {
         let mut options = Options::default();
         options.degree = match self.degree {

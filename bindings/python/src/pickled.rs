@@ -1,9 +1,10 @@
-//! A world as Python's pickle writes it down, and what is read back: bodies with their numbers, in their shapes of now, with their motions,
-//! filters, groups of vertices, ignored pairs and loose boxes. Options are arguments of what makes the new world.
+//! State of a world as pickle writes it, and a world restored from it.
 //!
-//! Trees are not written: they are built anew, on the shapes of now, which changes no answer. Numbers of edges are, where somebody has
-//! asked for them: they stay. What is read is checked as if it was given to a world by calls, which it is. What was written before there
-//! were numbers of edges is read, and its edges are numbered anew.
+//! Written are bodies by number, with shape, motion, filter, vertex groups and loose box, and the
+//! ignored pairs. Options are arguments of the constructor that pickle calls. Trees are not written
+//! but built anew on the present shapes, which changes no answer. Numbers of edges are written once
+//! somebody has asked for them, so they stay; older pickles lack them. A state that is read is
+//! checked, for it is restored by the calls that a caller would make.
 
 use crate::answers::{Any, Owned, Rows};
 use crate::arrays::{CopiedCoordinates, CopiedMesh};
@@ -28,7 +29,7 @@ struct CopiedBody {
     loose_box: Option<Corners>,
 }
 
-/// All of a world but its options, which becomes a dictionary.
+/// State of a world, without its options; it becomes a dictionary.
 #[derive(IntoPyObject)]
 pub(crate) struct Copied {
     dtype: Option<&'static str>,
@@ -37,7 +38,7 @@ pub(crate) struct Copied {
     ignored: Vec<(u32, u32)>,
 }
 
-/// A world that was written down.
+/// State of a world, as pickle gives it back.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Written<'py> {
@@ -69,7 +70,7 @@ impl Copied {
         });
         with_world!(&state.world, world => {
             let bodies = world.bodies().map(|id| {
-                // Mostly none: then it is not written at all.
+                // Mostly all are 0, and then not written.
                 let mut groups = world.vertex_groups(id)?;
                 if groups.iter().all(|&group| group == 0) {
                     groups.clear();
@@ -97,7 +98,7 @@ impl Copied {
 }
 
 impl Written<'_> {
-    /// Makes this of a world that has had no body. If anything is refused, what it is then is of no use.
+    /// Restores a world that has had no body. If anything is refused, the world is of no use.
     pub(crate) fn restore(self, py: Python<'_>, state: &mut State) -> Result<()> {
         match self.dtype.as_deref() {
             None => {}

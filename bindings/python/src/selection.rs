@@ -1,12 +1,12 @@
-//! Who is asked about: bodies by their numbers, and `Selection` as Python sees it.
+//! `Selection` of Python, and bodies by their numbers.
 
 use crate::answers::Any;
-use crate::error::refused;
+use crate::error::{after_calling, refused};
 use pliant::{BodyId, ErrorKind};
 use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
 
-/// A body: its number. A number that no body can have is no body of any world.
+/// Number of a body, as a caller gives it. A number that no body can have is no body of any world.
 #[derive(Clone, Copy)]
 pub(crate) struct Body(pub(crate) BodyId);
 
@@ -18,20 +18,25 @@ impl<'py> FromPyObject<'_, 'py> for Body {
             Ok(number) => Ok(Self(BodyId(number))),
             Err(error) if error.is_instance_of::<PyOverflowError>(given.py()) => {
                 let kind = ErrorKind::NoSuchBody;
-                Err(refused!(NoSuchBody: "body {}: {kind}", given.str()?).into())
+                let refused = refused!(NoSuchBody: "body {}: {kind}", given.str()?);
+                Err(refused.advising(after_calling(&kind)).into())
             }
             Err(error) => Err(error),
         }
     }
 }
 
-/// Who meets whom in a query: a value, made with
+/// Which bodies a query asks about: a value that every kind of query takes.
 ///
-///   Selection.WORLD           every two bodies that may meet, as set_filter and ignore say; no body with itself
-///   Selection.EVERYTHING      the same, and each body with itself: what a step of a simulator asks. A body meets itself unless its
-///                             own membership and mask have no bit in common, or it is ignored with itself
-///   Selection.between(a, b)   two different bodies, whatever filters say; the first is the first of every hit
-///   Selection.within(a)       one body with itself, whatever filters say
+/// - Selection.WORLD: every two bodies that may meet, as World.set_filter and ignore say; no body
+///   with itself
+/// - Selection.EVERYTHING: as WORLD, and each body with itself. It is what a step of a simulator
+///   asks. A body whose own membership and mask share no bit is left out with itself, and so is one
+///   ignored with itself
+/// - Selection.between(a, b): two different bodies, whatever filters say
+/// - Selection.within(a): one body with itself, whatever filters say
+///
+/// Selections can be compared, hashed, copied and pickled.
 #[pyclass(frozen, eq, hash, module = "pliant")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Selection(pub(crate) pliant::Selection);
@@ -45,8 +50,8 @@ impl<'py> FromPyObject<'_, 'py> for Selection {
         }
         let given = given.repr()?;
         Err(PyTypeError::new_err(format!(
-            "who is asked about is a pliant.Selection: Selection.EVERYTHING, Selection.WORLD, Selection.between(a, b) or \
-             Selection.within(a); not {given}"
+            "who is asked about is a pliant.Selection: Selection.EVERYTHING, Selection.WORLD, \
+             Selection.between(a, b) or Selection.within(a); not {given}"
         )))
     }
 }
@@ -58,7 +63,9 @@ impl Selection {
     #[classattr]
     const EVERYTHING: Self = Self(pliant::Selection::Everything);
 
-    /// Two different bodies, whatever filters say. The first is the first of every hit.
+    /// Two different bodies, whatever filters say. Body a is the first of every hit.
+    ///
+    /// But a vertex comes before a triangle, whichever body it is of.
     #[staticmethod]
     fn between(a: Body, b: Body) -> Self {
         Self(pliant::Selection::Between(a.0, b.0))
@@ -79,7 +86,7 @@ impl Selection {
         }
     }
 
-    /// For `pickle` and `copy`: the name of a constant, or a function and its arguments.
+    /// Returns what pickle and copy need: the name of a constant, or a function and its arguments.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Any<'py>> {
         let (py, class) = (slf.py(), slf.get_type());
         let constant = |name: &str| {

@@ -1,9 +1,10 @@
-//! Ctrl-C while a query computes: signals are handled in the middle of it, and what a handler raises ends it.
+//! Ctrl-C while a query computes: signals are handled during it, and an exception ends it.
 //!
-//! Python handles signals only between instructions of its own, in its main thread; during a call of an extension module there are
-//! none. So a query looks now and then whether a signal has come. That needs the interpreter lock, for which it may have to wait
-//! while another thread of Python's runs: so it looks seldom, and only where it is of use, in the thread that asks and if this is
-//! the main one. What no query does, building a tree for example, is not interrupted.
+//! Python handles signals in its main thread, between instructions of its own. A call of an
+//! extension module has none, so a query checks for signals now and then. A check needs the
+//! interpreter lock, and may wait for it while another thread of Python runs. So checks are rare,
+//! and only in the thread that asks, if it is the main one. Work outside queries, such as building
+//! a tree, is not interrupted.
 
 use crate::error::{Refused, Result};
 use pyo3::prelude::*;
@@ -13,39 +14,46 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread::{self, ThreadId};
 use std::time::Instant;
 
-/// Milliseconds between two looks: nobody notices as much after Ctrl-C, and a wait for the lock, mostly 5 milliseconds where other
-/// threads of Python's are busy, is little beside it.
+/// Milliseconds between two checks for signals.
+///
+/// Nobody notices such a delay after Ctrl-C. A wait for the lock, mostly 5 milliseconds where other
+/// threads of Python are busy, is small beside it.
 const BETWEEN_LOOKS: u64 = 50;
 
-/// A query asks so many times before the clock is looked at. It asks every 10 milliseconds at least, but mostly so much more often that
-/// the clock alone would cost a sixth of a small query.
+/// Questions of a query for each look at the clock.
+///
+/// A query asks at least every 10 milliseconds, and mostly far more often: the clock alone would
+/// cost a sixth of a small query.
 const ASKED_PER_LOOK_AT_CLOCK: u32 = 16;
 
 thread_local! {
-    /// How often this thread has asked. Were the number shared, the threads of a query would wait for each other.
+    /// Questions of this thread so far. A shared counter would make the threads of a query wait for
+    /// each other.
     static ASKED: Cell<u32> = const { Cell::new(0) };
 }
 
-/// What is known of signals during one query.
+/// State of the checks for signals during one query.
 struct Signals {
     began: Instant,
     asker: ThreadId,
-    /// In milliseconds since the beginning.
+    /// Time of the next check, in milliseconds since the beginning.
     next_look: AtomicU64,
-    /// So many questions to a look at the clock.
+    /// Questions for each look at the clock.
     per_look: u32,
     raised: OnceLock<PyErr>,
 }
 
-/// Asks a query, for which it is called without the interpreter lock, and gives it what interrupts it. What a signal handler raised
-/// meanwhile, `KeyboardInterrupt` if nobody set another, is what comes back then.
+/// Runs `ask` with a question that interrupts it; called without the interpreter lock.
+///
+/// Returns the exception that a signal handler raised meanwhile: `KeyboardInterrupt`, if nobody set
+/// another handler.
 pub(crate) fn interruptible<T, E: Into<Refused>>(
     ask: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> Result<T, E>,
 ) -> Result<T> {
     interruptible_after(ASKED_PER_LOOK_AT_CLOCK, ask)
 }
 
-/// The same of what may compute for long between any two of so many questions.
+/// Runs `ask` as [`interruptible`] does, with `per_look` questions for each look at the clock.
 pub(crate) fn interruptible_after<T, E: Into<Refused>>(
     per_look: u32,
     ask: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> Result<T, E>,
@@ -58,7 +66,7 @@ pub(crate) fn interruptible_after<T, E: Into<Refused>>(
         raised: OnceLock::new(),
     };
     let answer = ask(&|| signals.have_raised());
-    // Also where the query came to its end in spite of it: no exception is lost.
+    // Also where the query ended in spite of it: no exception is lost.
     match signals.raised.into_inner() {
         Some(raised) => Err(Refused::Python(raised)),
         None => answer.map_err(Into::into),
@@ -66,7 +74,7 @@ pub(crate) fn interruptible_after<T, E: Into<Refused>>(
 }
 
 impl Signals {
-    /// Whether a handler has raised something; looks for signals where it is time to.
+    /// Whether a handler has raised an exception; checks for signals when it is time.
     fn have_raised(&self) -> bool {
         let asked = ASKED.get().wrapping_add(1);
         ASKED.set(asked);
@@ -90,7 +98,7 @@ impl Signals {
         self.began.elapsed().as_millis() as u64
     }
 
-    /// Has signals handled that have come. Returns whether to look again.
+    /// Has pending signals handled. Returns whether to check again.
     fn look(&self) -> bool {
         let handled = Python::try_attach(|py| {
             py.check_signals()?;
@@ -99,7 +107,7 @@ impl Signals {
         match handled {
             Some(Ok(is_main)) => is_main,
             Some(Err(raised)) => {
-                // Nothing was there before: after the first there is no other look.
+                // The first exception: there is no check after it.
                 let _ = self.raised.set(raised);
                 false
             }

@@ -9,13 +9,13 @@ use pliant_io::{Positions, Precision};
 use pyo3::Python;
 use std::sync::{Arc, Mutex, MutexGuard};
 
-/// The corners of a number that no triangle has.
+/// Corners of an empty triangle number.
 const EMPTY: [u32; 3] = [u32::MAX; 3];
 
 /// The lower and the upper corner of a box.
 pub(crate) type Corners = ([f64; 3], [f64; 3]);
 
-/// A state that one call at a time has: the world's, and that of the questions put to it.
+/// State of a world, shared with the queries made from it, for one call at a time.
 #[derive(Clone)]
 pub(crate) struct Shared(Arc<Mutex<State>>);
 
@@ -33,7 +33,7 @@ impl Shared {
         alone_with(py, &self.0, work)
     }
 
-    /// The state, for one call alone.
+    /// Locks the state for one call, or refuses if another call has it.
     pub(crate) fn alone(&self) -> Result<MutexGuard<'_, State>> {
         alone(&self.0)
     }
@@ -41,14 +41,15 @@ impl Shared {
 
 /// A world, and whether its precision is fixed.
 pub(crate) struct State {
-    /// Of any precision while it never had a body; questions then have the same answers.
+    /// The world; of any precision while it never had a body, for answers are then the same.
     pub(crate) world: AnyWorld,
     options: Options,
     precision_is_fixed: bool,
-    /// 32-bit positions, widened.
+    /// Buffer for float32 positions, widened.
     widened: Vec<[f64; 3]>,
-    /// Copies of the shapes that bodies are given.
+    /// Buffer for copies of float32 shapes that bodies are given.
     narrow: Room<f32>,
+    /// Buffer for copies of float64 shapes.
     wide: Room<f64>,
 }
 
@@ -64,7 +65,7 @@ impl State {
         }
     }
 
-    /// The same world once more.
+    /// Copies the world.
     pub(crate) fn another(&self) -> Self {
         Self {
             world: self.world.clone(),
@@ -73,7 +74,7 @@ impl State {
         }
     }
 
-    /// Bytes of scratch beside the world. Takes the interpreter lock, which the caller has.
+    /// Bytes of the buffers beside the world. The caller has the interpreter lock.
     pub(crate) fn room(&self, py: Python<'_>) -> usize {
         self.widened.capacity() * size_of::<[f64; 3]>() + self.narrow.held(py) + self.wide.held(py)
     }
@@ -91,7 +92,7 @@ impl State {
         }
     }
 
-    /// Adds a body. If it is the first, its precision becomes that of the world.
+    /// Adds a body. The first fixes the precision of the world.
     pub(crate) fn add(
         &mut self,
         triangles: &[[u32; 3]],
@@ -119,7 +120,9 @@ impl State {
         taken.map_err(|not_taken| of_body(body, not_taken))
     }
 
-    /// Adds a body that has numbers of triangles and vertices which are empty. What comes for these meanwhile goes again.
+    /// Adds a body that has empty triangle and vertex numbers.
+    ///
+    /// They are filled with copies of others first, which an edit then removes.
     pub(crate) fn add_with_empty(
         &mut self,
         triangles: &[[u32; 3]],
@@ -139,7 +142,7 @@ impl State {
         let gone = numbers_of(triangles, |corners| !is_live(&corners));
         let filled = |corners: &[u32; 3]| if is_live(&corners) { *corners } else { some };
         let filled: Vec<[u32; 3]> = triangles.iter().map(filled).collect();
-        // Those that were 32-bit numbers still are.
+        // Widened float32 numbers are rounded back without loss.
         let narrow: Vec<[f32; 3]>;
         let rows = match positions {
             Positions::F32(_) => {
@@ -160,8 +163,9 @@ impl State {
         Ok(body)
     }
 
-    /// Copies a new shape of a body, as many positions as it has vertices, in the world's type: 32-bit ones are widened on the way.
-    /// Takes the interpreter lock, which the caller has.
+    /// Copies a new shape of a body, a row for each vertex, in the world's type.
+    ///
+    /// Float32 is widened on the way. The caller has the interpreter lock.
     pub(crate) fn copy<'py>(
         &mut self,
         body: BodyId,
@@ -195,15 +199,15 @@ impl State {
         taken.map_err(|not_taken| of_body(body, not_taken))
     }
 
-    /// Says where the vertices of a body are going.
+    /// Begins a motion of a body.
     pub(crate) fn set_motion(&mut self, body: BodyId, end: Positions<'_>) -> Result<()> {
         let taken = self.world.set_motion(body, end, &mut self.widened);
         taken.map_err(|not_taken| of_body(body, not_taken))
     }
 
-    /// Gives a body the shape that somebody wrote, or did not.
+    /// Gives a body a shape that a caller wrote into an array.
     pub(crate) fn write_positions(&mut self, body: BodyId, written: Positions<'_>) -> Result<()> {
-        // Should the buffer be of another length now, what is not written is said to be.
+        // Of another length now, the array leaves rows unwritten, which are refused.
         fn copy<T: Copy>(from: &[T], to: &mut [T]) {
             to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
         }
@@ -236,7 +240,7 @@ impl State {
         }
     }
 
-    /// The box that holds a body in every pose, widened.
+    /// Loose box of a body, widened.
     pub(crate) fn loose_box(&self, body: BodyId) -> Result<Option<Corners>, Error> {
         Ok(match &self.world {
             AnyWorld::F32(world) => {
@@ -249,7 +253,7 @@ impl State {
     }
 }
 
-/// The numbers of those in a list of which something is so.
+/// Indices of the entries of a list that satisfy a predicate.
 fn numbers_of<T>(list: &[T], is_so: impl Fn(&T) -> bool) -> Vec<u32> {
     let numbered = (0..).zip(list);
     numbered
@@ -264,7 +268,9 @@ pub(crate) fn precision_of(positions: Positions<'_>) -> Precision {
     }
 }
 
-/// About positions that were given for a body, which the library names by itself where it is the one that refuses.
+/// Refusal of positions that were given for a body.
+///
+/// The library names the body by itself where it is the one that refuses.
 pub(crate) fn of_body(body: BodyId, not_taken: NotTaken) -> Refused {
     let is_named = matches!(not_taken, NotTaken::Refused(_));
     let refused = Refused::from(not_taken);
@@ -281,8 +287,9 @@ impl From<NotTaken> for Refused {
             NotTaken::Refused(error) => error.into(),
             NotTaken::WouldBeRounded => Self::new(
                 "Precision",
-                "positions are float64 in a world of float32, which its first body made it; rounding them may change answers: \
-                 if that is meant, give positions.astype(numpy.float32), else begin the world with a body of float64",
+                "positions are float64 in a world of float32, which its first body made it; \
+                 rounding them may change answers: if that is meant, give \
+                 positions.astype(numpy.float32), else begin the world with a body of float64",
             ),
         }
     }

@@ -1,7 +1,7 @@
-//! USD files, which `usd-core` evaluates in Python (`_usd.py`), as bodies of a check: frame by frame, when they are asked for.
+//! USD files as bodies of a check, evaluated frame by frame by `usd-core` in Python (`_usd.py`).
 //!
-//! Frames are read without the interpreter lock; a frame of USD takes it back. What Python raises meanwhile is kept aside and comes out
-//! of the call as it was.
+//! Frames are read without the interpreter lock; a frame of USD takes it back. An exception of
+//! Python meanwhile is kept aside and comes out of the call as it was.
 
 use crate::answers::Any;
 use crate::arrays::CopiedCoordinates;
@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What Python raised, until the call ends that it came up in.
+/// Exception that Python raised, kept until the call ends in which it came up.
 #[derive(Clone, Default)]
 pub(crate) struct Raised(Arc<Mutex<Option<PyErr>>>);
 
@@ -20,7 +20,7 @@ impl Raised {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
     }
 
-    /// What was raised, rather than what came of it.
+    /// The exception if one was raised, else the outcome.
     pub(crate) fn rather<T>(&self, outcome: Result<T>) -> Result<T> {
         let mut raised = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         match raised.take() {
@@ -46,7 +46,7 @@ pub(crate) fn is_usd(argument: &str) -> bool {
 
 /// A mesh of a stage.
 struct Mesh {
-    /// Of the class in Python.
+    /// Object of `Mesh` in `_usd.py`.
     evaluator: Py<PyAny>,
     frames: usize,
     counts: Vec<u32>,
@@ -83,7 +83,7 @@ impl Evaluated for Mesh {
     }
 }
 
-/// The meshes that an argument names, in the order of the stage.
+/// Opens the meshes that an argument names, in the order of the stage.
 pub(crate) fn open(
     argument: &str,
     options: &OpenOptions,

@@ -1,7 +1,7 @@
-//! `World` as Python sees it: the Rust library's, method by method.
+//! `World` of Python: the world of the Rust library, method by method.
 
 use crate::answers::{Any, Column, Owned, Rows, counted, named};
-use crate::arrays::{self, Coordinates, CopiedCoordinates, CopiedMesh};
+use crate::arrays::{self, BoxCorners, Coordinates, CopiedCoordinates, CopiedMesh, Number};
 use crate::edit::{self, AnyEdit, Edit};
 use crate::error::{Refused, Result};
 use crate::options::Keywords;
@@ -20,35 +20,71 @@ use pliant_io::{Positions, Precision};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-/// Bodies that change their shape, and the questions which of their triangles intersect.
+/// Deforming triangle meshes, and exact answers about what of them meets or is near.
 ///
-/// The first body fixes the precision, float32 or float64. Moving a body is `set_positions`; there is nothing else to call:
-/// every query refits what is stale of what it touches, and none can answer for old positions. A call that is refused raises
-/// `pliant.Error` and leaves the world as it was.
+///     world = pliant.World(threads=4)
+///     cloth = world.add(faces, positions)
+///     world.set_positions(cloth, moved)
+///     hits = world.intersections(pliant.Selection.EVERYTHING).all()
 ///
-/// No option changes an answer; the defaults measured best. The paper's trees are partition="centre", leaf_size=1.
+/// A query refits the boxes that it reads. There is no refit to call, and no answer is for old
+/// positions.
 ///
-///   degree      the most children of a node: 2, 4 or 8
-///   partition   how triangles are divided into a tree: at the "centre" of a node's box, at the "mean" of the triangles'
-///               midpoints, into parts of equal size ("balanced"), or along the mesh ("connectivity")
-///   leaf_size   the most triangles in a leaf
-///   update      which boxes are made when: "bottom-up", "top-down" or "hybrid"
-///   level       the level down to which the hybrid works bottom-up; None: half the depth of the tree
-///   broad       how bodies that may meet are found: "brute", "sweep", or by their number ("auto")
-///   threads     how many share the work of a query; no number changes an answer
-///   mending     whether a tree that has decayed so far that a fresh one would have paid is built anew, a part of the work whenever
-///               the body has a new shape
+/// The first body fixes the precision, float32 or float64: see dtype. Lengths are in the unit of
+/// the positions. Bodies, triangles, vertices and edges are numbers, counted from 0. Surfaces only:
+/// a body wholly inside another meets none of its triangles.
 ///
-/// The interpreter lock is released while a call computes. Arrays are copied before: whoever writes to one while a call is given it
-/// may see some of what was written in the shape, but never what was not checked. A world is in use by one call at a time; a second
-/// is refused.
+/// A refused call raises pliant.Error and leaves the world as it was. Names behind "Raises
+/// pliant.Error:" are values of its attribute kind. Every call may also raise the kind Busy, for a
+/// world answers one call at a time. In costs, m and n are the numbers of triangles and vertices of
+/// a body.
+///
+/// - bodies: add, remove, bodies, set_positions, write_positions, positions, triangles, edges,
+///   triangle_count, vertex_count
+/// - what meets or is near: intersections, contacts, vertex_triangle_candidates,
+///   edge_edge_candidates
+/// - distances: close_vertex_triangle_pairs, close_edge_edge_pairs, close_triangle_pairs, distance,
+///   nearest_body, clearance
+/// - motion: set_motion, end_positions, vertex_triangle_impacts, edge_edge_impacts, first_impact,
+///   free_step, collision_free_step, advance_motion, finish_motion
+/// - change of a mesh: set_mesh, edit, apply, live_triangles, live_vertices, mesh_revision,
+///   components, split, fuse, weld
+/// - who may meet: set_filter, filter, ignore, unignore, ignored, set_vertex_groups, vertex_groups
+/// - speed: options, rebuild, tree_quality, set_loose_box, loose_box, vertex_order, statistics,
+///   memory_usage
+/// - the tree itself: tree_shape, tree_cut, tree_boxes, validate
+///
+/// Options are keywords. None changes an answer, and the defaults measured best. The paper's trees
+/// are partition="centre", leaf_size=1.
+///
+/// - degree: the most children of a node, 2, 4 or 8
+/// - partition: how triangles are divided into a tree. "balanced" makes parts of equal size,
+///   "connectivity" connected pieces of the mesh. "centre" cuts the box of a node at its centre,
+///   "mean" at the mean of the midpoints of its triangles
+/// - leaf_size: the most triangles in a leaf
+/// - update: which boxes are refitted when. "bottom-up" refits all ahead, "top-down" each one when
+///   it is reached, "hybrid" the upper levels ahead
+/// - level: the level down to which "hybrid" refits ahead, the root being 0. None is half the depth
+///   of the tree, and all levels where a body meets itself
+/// - broad: how pairs of bodies are found. "brute" compares all boxes, "sweep" is sweep and prune,
+///   "tree" a tree of bodies. "auto" is "brute" up to 100 bodies, then "tree"
+/// - threads: how many threads share the work of a query. More pay from about a millisecond of work
+///   on
+/// - mending: whether a tree that has decayed is built anew, a part of the work at each new shape:
+///   see tree_quality
+///
+/// An option without such a value raises pliant.Error: BadOption.
+///
+/// The interpreter lock is released while a call computes. Arrays are copied and checked before:
+/// another thread that writes to one may change the shape taken, never make it unchecked.
+/// copy.copy, copy.deepcopy and pickle make a world that answers the same.
 #[pyclass(frozen, module = "pliant")]
 pub(crate) struct World {
     state: Shared,
     keywords: Keywords,
 }
 
-/// What most methods do: work with the world, of either precision, without the interpreter lock.
+/// Works with the world, of either precision, without the interpreter lock: most methods.
 macro_rules! ask {
     ($this:ident, $py:ident, $world:ident => $work:expr) => {
         $this.state.with($py, |state| {
@@ -57,7 +93,7 @@ macro_rules! ask {
     };
 }
 
-/// The same of what takes long, and ends early if a signal handler raises something.
+/// Works with the world as `ask!` does, and ends early if a signal handler raises: long work.
 macro_rules! search {
     ($this:ident, $py:ident, $world:ident => $work:expr) => {
         $this.state.with($py, |state| {
@@ -69,17 +105,20 @@ macro_rules! search {
     };
 }
 
-/// An object of Python's, or why there is none.
+/// An object of Python, or the refusal.
 type Answer<'py> = Result<Any<'py>>;
 
-/// The same, or nothing.
+/// An object of Python or `None`, or the refusal.
 type Maybe<'py> = Result<Option<Any<'py>>>;
 
 #[pymethods]
 impl World {
     #[new]
     #[expect(clippy::too_many_arguments, reason = "they are keywords")]
-    #[pyo3(signature = (*, degree=8, partition="balanced", leaf_size=8, update="hybrid", level=None, broad="auto", threads=1, mending=false))]
+    #[pyo3(signature = (
+        *, degree=8, partition="balanced", leaf_size=8, update="hybrid", level=None, broad="auto",
+        threads=1, mending=false
+    ))]
     fn new(
         degree: i64,
         partition: &str,
@@ -104,20 +143,22 @@ impl World {
         Ok(Self { state, keywords })
     }
 
-    /// The same bodies under the same numbers, in their shapes of now, with filters, ignored pairs, loose boxes and options. Boxes are
-    /// made anew; what is done to the one world is nothing to the other.
+    /// Returns a copy with the same bodies, under the same numbers and in their present shapes.
+    ///
+    /// Filters, ignored pairs, loose boxes and options are copied. Boxes are made anew. The two
+    /// worlds share nothing.
     fn __copy__(&self, py: Python<'_>) -> Result<Self> {
         let state = Shared::new(self.state.with(py, |state| Ok(state.another()))?);
         let keywords = self.keywords.clone();
         Ok(Self { state, keywords })
     }
 
-    /// As copy: a world holds nothing that it could share.
+    /// Returns a copy, as copy.copy does: a world holds nothing that could be shared.
     fn __deepcopy__(&self, py: Python<'_>, _memo: &Any<'_>) -> Result<Self> {
         self.__copy__(py)
     }
 
-    /// For pickle, which then needs nothing of copyreg: what makes a world with these options, and what it is to become.
+    /// Returns a constructor with these options, and the state for __setstate__: for pickle.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyTuple>> {
         let (py, this) = (slf.py(), slf.get());
         let options = this.keywords.clone().into_pyobject(py)?;
@@ -127,8 +168,13 @@ impl World {
         (make, PyTuple::empty(py), written).into_pyobject(py)
     }
 
-    /// What pickle wrote down becomes of a world that never had a body. Bodies keep their numbers, and those that were used are not
-    /// used again. Trees are built on the shapes of then.
+    /// Restores the state that pickle wrote, into a world that never had a body.
+    ///
+    /// Bodies keep their numbers, and numbers that were used are not used again. Trees are built on
+    /// the shapes that were written.
+    ///
+    /// Raises pliant.Error: BadOption if the world has had bodies, or the state is not one that
+    /// pickle wrote.
     fn __setstate__(&self, py: Python<'_>, written: Written<'_>) -> Result<()> {
         let mut restored = State::new(self.keywords.to_options()?);
         written.restore(py, &mut restored)?;
@@ -142,23 +188,32 @@ impl World {
         })
     }
 
-    /// The options of this world, as the keyword arguments that make another like it.
+    /// Options of this world, a dict of the keyword arguments that make another like it.
     fn options(&self) -> Keywords {
         self.keywords.clone()
     }
 
-    /// The type of all positions, float32 or float64; None as long as there was no body.
+    /// Dtype of all positions, numpy.float32 or numpy.float64; None before the first body.
     #[getter]
     fn dtype<'py>(&self, py: Python<'py>) -> Maybe<'py> {
         let precision = self.state.with(py, |state| Ok(state.precision()))?;
         Ok(precision.map(|precision| dtype_of(py, precision)))
     }
 
-    /// Adds a body: faces (m, 3) of any integer type, and positions (n, 3) of float32 or float64; or one mesh object that has
-    /// .faces (or .triangles, as in Open3D) and .vertices. Returns its number, which this world will not use again.
+    /// Adds a body, and returns its number, an int that this world will not use again.
     ///
-    /// Builds its tree on these positions, which need not be special; a rest pose is best. Corners may repeat: a degenerate
-    /// triangle is the segment or point that it is. Nothing is welded.
+    /// - faces: (m, 3) of any integer type, the corners of each triangle, counted from 0
+    /// - positions: (n, 3) float32 or float64; float32 is widened in a float64 world
+    ///
+    /// One mesh object takes the place of both: .faces (or .triangles, as in Open3D) and .vertices
+    /// are read. The tree is built on these positions; a rest pose is best. A degenerate triangle
+    /// is the segment or point that it is. Vertices without triangles are allowed. Nothing is
+    /// welded.
+    ///
+    /// Raises pliant.Error: BadArray, Precision, NoTriangles, VertexOutOfRange, BadPosition,
+    /// NeedsSubnormals, TooLarge above 2^28 triangles or 2^32 - 1 vertices, TooManyBodies.
+    ///
+    /// Cost: O(m log m) with partition="balanced", else O(m) for each level of the tree.
     #[pyo3(signature = (faces, positions=None))]
     fn add(&self, py: Python<'_>, faces: &Any<'_>, positions: Option<&Any<'_>>) -> Result<u32> {
         let mesh = mesh_of(faces, positions, None)?;
@@ -169,12 +224,22 @@ impl World {
         })
     }
 
-    /// Gives a body another mesh and its shape, of any size: faces (m, 3) and positions (n, 3), or one mesh object, as add takes them.
-    /// Number, filter, ignored pairs and loose box stay; triangles and vertices are numbered as these are, and none is empty.
+    /// Gives a body another mesh and shape, of any size.
     ///
-    /// What is equal by number stays, what differs is edited, which costs as apply does. Where more than an eighth of the triangles differ,
-    /// or vertices are fewer than before, all is made anew, which costs as much as add: edges have other numbers then. A mesh that is not
-    /// that which the body has ends a motion, and takes the vertices their groups.
+    /// Faces (m, 3) and positions (n, 3), or one mesh object, as add takes them. The body keeps its
+    /// number, filter, ignored pairs and loose box. Triangles and vertices are numbered as given,
+    /// and none is empty. If the mesh differs from the present one, a motion ends and vertex groups
+    /// are 0 again.
+    ///
+    /// Rows equal by number stay, others are edited, as apply does. If more than an eighth of the
+    /// triangles differ, or there are fewer vertices than before, all is made anew. Edges then have
+    /// other numbers.
+    ///
+    /// Raises pliant.Error: NoSuchBody, OutsideLooseBox, and the kinds of add. The body then keeps
+    /// mesh and shape.
+    ///
+    /// Cost: O(m + n) to compare, and the cost of apply for what differs; if all is made anew, that
+    /// of add.
     #[pyo3(signature = (body, faces, positions=None))]
     fn set_mesh(
         &self,
@@ -189,100 +254,154 @@ impl World {
         state.with(py, |state| state.set_mesh(body.0, faces, positions))
     }
 
-    /// Begins an edit of a body's mesh: changes that apply makes all at once, or not at all.
+    /// Begins an edit of a body's mesh: an Edit without steps, which apply makes all at once.
+    ///
+    /// Raises pliant.Error: NoSuchBody.
     fn edit(&self, py: Python<'_>, body: Body) -> Result<Edit> {
         self.state
             .with(py, |state| Ok(AnyEdit::of(state, body.0)?))
             .map(Edit::new)
     }
 
-    /// Makes the changes of an edit, and says by number what has changed, as an Edited of arrays. Triangles and vertices that it does not
-    /// name keep their numbers, edges their numbers if they stay.
+    /// Makes the changes of an edit, all or none; returns an Edited, the changes by number.
     ///
-    /// A number that is left empty is 0xFFFFFFFF three times in triangles, and nothing in any answer. Positions keep one row for every
-    /// number; rows of empty vertices are not looked at when they are set, and NaN when they are asked for. Filter, ignored pairs and loose
-    /// box stay; a new vertex has group 0, or that of the vertex that it was split from; a motion ends if anything changes.
+    /// Triangles and vertices that the edit does not name keep their numbers. Edges keep theirs
+    /// while they stay. A triangle number left empty is 0xFFFFFFFF three times in triangles, and in
+    /// no answer. Positions keep a row for every number. Rows of empty vertices are not looked at
+    /// when set, and NaN when asked for.
     ///
-    /// Costs by what the edit names and the triangles at the vertices of that, whatever the size of the mesh; but O(m) for the first edit
-    /// of a body, and when a sixteenth of the triangles were changed since, for the tree is then built anew.
+    /// Filter, ignored pairs and loose box stay. A split vertex has the group of the vertex it was
+    /// split from, any other new one group 0. A motion ends if anything changes.
+    ///
+    /// Raises pliant.Error: OutdatedEdit if the mesh was changed since the edit began, or another
+    /// world began it. NoTriangles if none would be left. NoSuchTriangle, EmptyTriangle,
+    /// NoSuchVertex, EmptyVertex, VertexOutOfRange, VertexInUse, NotACorner for steps. BadPosition,
+    /// OutsideLooseBox and NeedsSubnormals for new positions.
+    ///
+    /// Cost: proportional to the edit and the triangles around it, whatever the size of the mesh.
+    /// The first edit of a body costs O(m). So does the one that makes m / 16 changed triangles:
+    /// the tree is then built anew.
     fn apply<'py>(&self, py: Python<'py>, edit: &Edit) -> Answer<'py> {
         let edited = edit.with(|edit| self.state.with(py, |state| edit.apply(state)))?;
         Ok(edit::edited(py, edited)?)
     }
 
-    /// For each number whether it is that of a triangle, (m,) bool: False where an edit has left it empty.
+    /// Whether each triangle number of a body is in use, (m,) bool; False if left empty.
+    ///
+    /// Raises pliant.Error: NoSuchBody. Cost: O(m).
     fn live_triangles(&self, py: Python<'_>, body: Body) -> Result<Column<bool>> {
         ask!(self, py, world => Column(world.live_triangles(body.0)?))
     }
 
-    /// For each number whether it is that of a vertex, (n,) bool: False where an edit has left it empty.
+    /// Whether each vertex number of a body is in use, (n,) bool; False if left empty.
+    ///
+    /// Raises pliant.Error: NoSuchBody. Cost: O(n).
     fn live_vertices(&self, py: Python<'_>, body: Body) -> Result<Column<bool>> {
         ask!(self, py, world => Column(world.live_vertices(body.0)?))
     }
 
-    /// Counts the meshes of a body, and the orders that its trees bring them into: whoever keeps what vertex_order, edges or triangles says
-    /// asks for them again when this is another.
+    /// Counter of a body's meshes and tree orders, an int that changes when either does.
+    ///
+    /// Whoever keeps the arrays of triangles, edges or vertex_order asks for them again when it has
+    /// changed.
+    ///
+    /// Raises pliant.Error: NoSuchBody. Cost: O(1).
     fn mesh_revision(&self, py: Python<'_>, body: Body) -> Result<u64> {
         ask!(self, py, world => world.mesh_revision(body.0)?)
     }
 
-    /// For each triangle of a body its component, (m,) uint32: two are in one if they share a vertex, or hang together through others that
-    /// do. Numbered from 0 in the order of their first triangles; an empty number has 0xFFFFFFFF.
+    /// Connected component of each triangle of a body, (m,) uint32.
+    ///
+    /// Triangles that share a vertex are in one component. Components are numbered from 0 by their
+    /// first triangles. An empty triangle number has 0xFFFFFFFF.
+    ///
+    /// Raises pliant.Error: NoSuchBody. Cost: O(m + n).
     fn components(&self, py: Python<'_>, body: Body) -> Result<Column<u32>> {
         ask!(self, py, world => Column(world.components(body.0)?))
     }
 
-    /// Makes a body of each component, but of the largest, which stays what it is with all its numbers: that with the most triangles, of
-    /// several the first. Returns a list of Piece in the order of their first triangles; it is empty if all hangs together.
+    /// Makes each connected component of a body but the largest a body of its own.
     ///
-    /// What they have from the body: filter, loose box, vertex groups, and whom it ignores; if it ignores itself, the pieces ignore each
-    /// other and it. A motion of the body ends. Vertices that no triangle uses stay with it.
+    /// Returns a list of Piece, ordered by first triangle; empty, with nothing changed, if the mesh
+    /// is connected. The component with the most triangles, of several the first, stays with all
+    /// its numbers. Vertices without triangles stay with it.
+    ///
+    /// Pieces inherit filter, loose box, vertex groups and ignored pairs. If the body ignores
+    /// itself, the pieces ignore each other and it. A motion of the body ends.
+    ///
+    /// Raises pliant.Error: NoSuchBody, TooManyBodies. Cost: O(m + n), and building the trees of
+    /// the pieces.
     fn split<'py>(&self, py: Python<'py>, body: Body) -> Result<Vec<Any<'py>>> {
         let pieces = ask!(self, py, world => world.split(body.0)?)?.into_iter();
         let pieces = pieces.map(|piece| edit::piece(py, piece));
         Ok(pieces.collect::<PyResult<_>>()?)
     }
 
-    /// Puts the triangles and vertices of body b behind those of a, and removes b. Returns a Fused: which numbers they have now.
+    /// Appends the triangles and vertices of body b to body a, and removes b.
     ///
-    /// Body a keeps its numbers, its filter and whom it ignores; vertices keep their groups. The loose box is then one around both if both
-    /// had one, else there is none. Motions of either end. Nothing is welded: see weld.
+    /// Returns a Fused: the new number of each triangle and vertex of b. Body a keeps its numbers,
+    /// filter and ignored pairs; vertices keep their groups. If both have a loose box, the new one
+    /// holds both; else there is none. Motions of both end. Nothing is welded: see weld.
+    ///
+    /// Raises pliant.Error: NoSuchBody, SameBody if a is b, TooLarge.
+    ///
+    /// Cost: building a tree for the triangles of b; for both, if b has more than a sixteenth as
+    /// many as a.
     fn fuse<'py>(&self, py: Python<'py>, a: Body, b: Body) -> Answer<'py> {
         let fused = ask!(self, py, world => world.fuse(a.0, b.0)?)?;
         Ok(edit::fused(py, fused)?)
     }
 
-    /// Makes boundary edges one where they coincide: where the ends of one are, one by one, at most a tolerance from those of another,
-    /// decided exactly. Of vertices that become one the lowest stays where it is, the others go. A boundary edge is one that exactly one triangle has. Returns
-    /// an Edited.
+    /// Joins boundary edges of a body that coincide within a tolerance; returns an Edited.
     ///
-    /// Vertices that coincide are not welded where no edges do, and never two corners of one triangle.
+    /// A boundary edge belongs to exactly one triangle. Two coincide if their ends, one by one, are
+    /// at most tolerance apart, in the unit of the positions, decided exactly. Of joined vertices
+    /// the lowest number stays where it is, and the others go. Vertices alone are not welded, and
+    /// never two corners of one triangle.
+    ///
+    /// Raises pliant.Error: NoSuchBody, BadDistance if tolerance is negative, infinite or NaN.
+    /// Cost: O(m log m).
     fn weld<'py>(&self, py: Python<'py>, body: Body, tolerance: f64) -> Answer<'py> {
-        let edited = search!(self, py, world => world.weld(body.0, tolerance))?;
+        let edited = search!(self, py, world => world.weld(body.0, tolerance))
+            .map_err(|refused| refused.distance_is("tolerance"))?;
         Ok(edit::edited(py, edited)?)
     }
 
     /// Removes a body. Its number will not be used again.
+    ///
+    /// Raises pliant.Error: NoSuchBody.
     fn remove(&self, py: Python<'_>, body: Body) -> Result<()> {
         ask!(self, py, world => world.remove(body.0)?)
     }
 
-    /// The bodies of this world, in the order in which they were added.
+    /// Numbers of all bodies, a list of int in the order in which they were added.
     fn bodies(&self, py: Python<'_>) -> Result<Vec<u32>> {
         ask!(self, py, world => world.bodies().map(|body| body.0).collect())
     }
 
-    /// Gives a body a new shape: one position for each of its vertices, (n, 3), in the order in which it was added.
+    /// Gives a body a new shape: positions (n, 3), a row for each vertex.
     ///
-    /// The positions are copied once, whatever their layout, into memory that the world keeps for it; float32 is widened in a float64
-    /// world on the way. The copy is checked, and taken over only if all are good.
+    /// Float32 is widened in a float64 world. The array is copied once, whatever its layout, into
+    /// memory that the world keeps. The copy is checked, and taken only if every coordinate is
+    /// good. A motion of the body ends.
+    ///
+    /// Raises pliant.Error: NoSuchBody, BadArray, Precision for float64 in a float32 world,
+    /// WrongLength. BadPosition for a coordinate that is NaN, infinite or above 3.4e38 in
+    /// magnitude. OutsideLooseBox, and NeedsSubnormals in a thread that flushes subnormal numbers.
+    ///
+    /// Cost: O(n).
     fn set_positions(&self, py: Python<'_>, body: Body, positions: &Any<'_>) -> Result<()> {
         self.with_shape(py, body, positions, State::set_positions)
     }
 
-    /// Like set_positions, but write(positions) fills an array (n, 3) of the world's type, which comes filled with NaN: every
-    /// vertex must be written, or the shape is refused. Until write returns the world is in use. Where speed matters, reuse an array of your own and set_positions:
-    /// unlike in Rust, this form costs copies more.
+    /// Gives a body a new shape that write(positions) fills into an array.
+    ///
+    /// The array is (n, 3) of the world's dtype, filled with NaN: every row must be written. The
+    /// world is in use until write returns. Prefer set_positions with an array of your own where
+    /// speed matters: this form copies more.
+    ///
+    /// Raises pliant.Error: NotWritten for a row left NaN, and the kinds of set_positions. The
+    /// exceptions of write pass through. Cost: O(n).
     fn write_positions(&self, py: Python<'_>, body: Body, write: &Any<'_>) -> Result<()> {
         let body = body.0;
         // Until it is written, so that what is written is for the body that was asked about.
@@ -298,156 +417,229 @@ impl World {
         py.detach(|| state.write_positions(body, written))
     }
 
-    /// Begins a motion: says where the vertices of a body will be at the end of the step, (n, 3). On the way they move on straight lines,
-    /// from the shape that the body has now. Queries for candidates look at the whole way; intersections are of the shape of now, as
-    /// ever. A body without a motion stands still.
+    /// Begins a motion of a body: end (n, 3) is its shape at the end of the step.
     ///
-    /// The positions are checked as those of set_positions are. A motion takes the place of the one before, and ends with finish_motion,
-    /// advance_motion, the next new shape or mesh.
+    /// Vertices move on straight lines from the present shape at time 0 to end at time 1.
+    /// Candidates and impacts look at the whole way; all other queries at the present shape. A body
+    /// without a motion stands still.
+    ///
+    /// A motion replaces the one before. It ends with finish_motion, advance_motion, or the next
+    /// shape or mesh of the body.
+    ///
+    /// Raises pliant.Error: the kinds of set_positions. The body then keeps the motion that it has.
+    /// Cost: O(n).
     fn set_motion(&self, py: Python<'_>, body: Body, end: &Any<'_>) -> Result<()> {
         self.with_shape(py, body, end, State::set_motion)
     }
 
-    /// Ends all motions: every body that has one gets the shape at its end, without a copy. The others stand still.
+    /// Ends all motions: bodies that have one take the shape at its end, without a copy.
     fn finish_motion(&self, py: Python<'_>) -> Result<()> {
         ask!(self, py, world => world.finish_motion())
     }
 
-    /// Ends all motions on the way: every body that has one gets the shape in which it is at time t, from 0 (where it is) to 1 (the end).
-    /// Each coordinate is x0 + t (x1 - x0), computed in float64, each operation rounded, kept between x0 and x1, and rounded to the
-    /// world's type; at 1 it is x1.
+    /// Ends all motions on the way: bodies that have one take their shape at time t, 0 to 1.
+    ///
+    /// Each coordinate is x0 + t (x1 - x0), computed in float64, kept between x0 and x1, and
+    /// rounded to the world's dtype. At t = 1 it is x1.
+    ///
+    /// Raises pliant.Error: BadTime if t is not from 0 to 1. Cost: O(n) for each body that moves.
     fn advance_motion(&self, py: Python<'_>, t: f64) -> Result<()> {
         ask!(self, py, world => world.advance_motion(t)?)
     }
 
-    /// The shape that a body will have at the end of its motion, a new array (n, 3) of the world's type; None if it has none.
+    /// Shape at the end of a body's motion, a new array (n, 3) of the world's dtype or None.
+    ///
+    /// Raises pliant.Error: NoSuchBody.
     fn end_positions(&self, py: Python<'_>, body: Body) -> Result<Option<Owned>> {
         ask!(self, py, world => world.end_positions(body.0)?.map(Owned::from))
     }
 
-    /// Gives every vertex of a body a group, (n,) of integers from 0 to 2^32 - 1: candidates are left out if all their vertices are of one
-    /// group, in whichever bodies they are. Those of group 0, as all are at first, meet all. For vertices that are pinned, or glued
-    /// together. They stay with the body until it is given another mesh.
+    /// Gives every vertex of a body a group, (n,) of integers from 0 to 2^32 - 1.
+    ///
+    /// Two elements whose vertices are all of one group are no candidates, close pairs or impacts,
+    /// in whichever bodies they are. Group 0, which all have at first, meets everything. For
+    /// vertices that are pinned, or glued together. Groups stay until the body is given another
+    /// mesh.
+    ///
+    /// Raises pliant.Error: NoSuchBody, BadArray, WrongLength. Cost: O(n).
     fn set_vertex_groups(&self, py: Python<'_>, body: Body, groups: &Any<'_>) -> Result<()> {
         let groups = arrays::numbers(groups, ["groups", "one for each vertex"]);
         let groups = groups.map_err(|refused| refused.of_body(Some(body.0)))?;
         ask!(self, py, world => world.set_vertex_groups(body.0, &groups)?)
     }
 
-    /// The group of every vertex of a body: a new array (n,) uint32.
+    /// Group of every vertex of a body, a new array (n,) uint32.
+    ///
+    /// Raises pliant.Error: NoSuchBody.
     fn vertex_groups(&self, py: Python<'_>, body: Body) -> Result<Column<u32>> {
         ask!(self, py, world => Column(world.vertex_groups(body.0)?))
     }
 
-    /// The edges of a body: a new array (k, 2) uint32, two vertices each, the smaller first. Every edge once, whatever triangles share it.
-    /// The number of an edge is its row here.
+    /// Edges of a body, a new array (k, 2) uint32: two vertices each, the smaller first.
     ///
-    /// They are sorted when they are first asked for, here or by a query for edges. From then on an edge keeps its number while there is a
-    /// triangle that has it, however the mesh is edited: a number whose edge is gone is empty, 0xFFFFFFFF twice, until an edge that comes
-    /// takes it, the lowest first.
+    /// Every edge is there once, whatever triangles share it. Its number is its row here.
+    ///
+    /// Edges are sorted when first asked for, here or by a query for edges. From then on an edge
+    /// keeps its number while a triangle has it. An edit leaves the number of an edge that goes
+    /// empty, 0xFFFFFFFF twice. New edges take the lowest empty numbers first.
+    ///
+    /// Raises pliant.Error: NoSuchBody. Cost: O(m) the first time and after rebuild, then the copy.
     fn edges(&self, py: Python<'_>, body: Body) -> Result<Rows<u32, 2>> {
         ask!(self, py, world => Rows(world.edges(body.0)?.to_vec()))
     }
 
-    /// How much more the tree of a body does than a fresh one would, estimated from what queries for triangles did in the shape of now:
-    /// pairs of nodes that were looked at, for one that a fresh tree would look at. 1.0 before a query says anything, or where little was looked
-    /// at. With mending=True trees that have decayed mend themselves.
+    /// Decay of a body's tree, a float: work of recent queries over that of a fresh tree.
+    ///
+    /// It is estimated from pairs of nodes that queries for triangles looked at in the present
+    /// shape. 1.0 before any query, or where little was looked at. World(mending=True) rebuilds
+    /// trees as soon as it pays, part of the work at each new shape; not with
+    /// partition="connectivity".
+    ///
+    /// Raises pliant.Error: NoSuchBody. Cost: O(1).
     fn tree_quality(&self, py: Python<'_>, body: Body) -> Result<f64> {
         ask!(self, py, world => world.tree_quality(body.0)?)
     }
 
-    /// Builds the tree of a body anew, on the shape it has now. Worth it when a shape has become very different from the one
-    /// it was built on; never needed for right answers.
+    /// Builds the tree of a body anew on its present shape. Never needed for right answers.
+    ///
+    /// Worth it when the shape has become very different from the one the tree was built on: see
+    /// tree_quality.
+    ///
+    /// Raises pliant.Error: NoSuchBody. Cost: that of add.
     fn rebuild(&self, py: Python<'_>, body: Body) -> Result<()> {
         ask!(self, py, world => world.rebuild(body.0)?)
     }
 
-    /// Says which bodies a body meets in queries of the whole world. Two bodies meet if the membership of each has a bit in
-    /// common with the mask of the other. At first both are all ones, 0xFFFFFFFF. A query that names its bodies does not look at
-    /// them.
-    fn set_filter(&self, py: Python<'_>, body: Body, membership: u32, mask: u32) -> Result<()> {
-        ask!(self, py, world => world.set_filter(body.0, membership, mask)?)
+    /// Sets the collision filter of a body, two 32-bit masks: what it is and what it meets.
+    ///
+    /// Two bodies meet if the membership of each has a bit in common with the mask of the other. At
+    /// first both are 0xFFFFFFFF. Selection.WORLD and EVERYTHING heed filters; between and within
+    /// do not.
+    ///
+    /// Raises pliant.Error: NoSuchBody. OverflowError for a number outside 0 to 2^32 - 1.
+    fn set_filter(
+        &self,
+        py: Python<'_>,
+        body: Body,
+        membership: Number,
+        mask: Number,
+    ) -> Result<()> {
+        ask!(self, py, world => world.set_filter(body.0, membership.0, mask.0)?)
     }
 
-    /// The membership and the mask of a body.
+    /// Collision filter of a body, a tuple (membership, mask): see set_filter.
+    ///
+    /// Raises pliant.Error: NoSuchBody.
     fn filter(&self, py: Python<'_>, body: Body) -> Result<(u32, u32)> {
         ask!(self, py, world => world.filter(body.0)?)
     }
 
-    /// From now on two bodies do not meet in queries of the whole world, or a body with itself if it is named twice. A query that
-    /// names its bodies does not look at this.
+    /// Keeps two bodies apart in queries of the whole world, or one body from itself.
+    ///
+    /// A body that is named twice does not meet itself. Selection.between and within do not heed
+    /// it. unignore takes it back.
+    ///
+    /// Raises pliant.Error: NoSuchBody.
     fn ignore(&self, py: Python<'_>, a: Body, b: Body) -> Result<()> {
         ask!(self, py, world => world.ignore(a.0, b.0)?)
     }
 
-    /// Takes ignore back.
+    /// Lets two bodies meet again that ignore keeps apart.
+    ///
+    /// Raises pliant.Error: NoSuchBody.
     fn unignore(&self, py: Python<'_>, a: Body, b: Body) -> Result<()> {
         ask!(self, py, world => world.unignore(a.0, b.0)?)
     }
 
-    /// The pairs of bodies that ignore keeps apart, each once, the lower number first; sorted.
+    /// Pairs of bodies that ignore keeps apart, a sorted list of (lower, higher) numbers.
     fn ignored(&self, py: Python<'_>) -> Result<Vec<(u32, u32)>> {
         ask!(self, py, world => world.ignored().into_iter().map(|[a, b]| (a.0, b.0)).collect())
     }
 
-    /// Gives a body a box, its lower and upper corner, that holds it in every pose to come; None takes it away. Corners are
-    /// rounded to the world's type. Until the box is taken away, a position outside it is refused.
-    fn set_loose_box(
-        &self,
-        py: Python<'_>,
-        body: Body,
-        corners: Option<(Any<'_>, Any<'_>)>,
-    ) -> Result<()> {
-        let corners = match corners {
-            Some((lo, hi)) => Some((arrays::point(&lo)?, arrays::point(&hi)?)),
-            None => None,
-        };
+    /// Gives a body a fixed box that holds it in every pose to come; None takes it away.
+    ///
+    /// corners is (lower, upper), three numbers each, rounded to the world's dtype. The broad phase
+    /// works with this box. It looks at the exact one only where loose boxes overlap. Worth it for
+    /// many bodies that move on their spot. While it is there, a position outside it is refused.
+    ///
+    /// Raises pliant.Error: NoSuchBody, OutsideLooseBox if the body is not inside now. BadLooseBox
+    /// for corners that are not finite or above 3.4e38 in magnitude, or a lower one above the
+    /// upper.
+    fn set_loose_box(&self, py: Python<'_>, body: Body, corners: Option<BoxCorners>) -> Result<()> {
+        let corners = corners.map(|BoxCorners(corners)| corners);
         let state = &self.state;
         state.with(py, |state| Ok(state.set_loose_box(body.0, corners)?))
     }
 
-    /// The lower and the upper corner of the box that set_loose_box gave to a body; None if it has none.
+    /// Loose box of a body, (lower, upper) corners as lists of three floats, or None.
+    ///
+    /// Raises pliant.Error: NoSuchBody.
     fn loose_box(&self, py: Python<'_>, body: Body) -> Result<Option<Corners>> {
         self.state.with(py, |state| Ok(state.loose_box(body.0)?))
     }
 
-    /// How many triangles a body has.
+    /// Number of triangles of a body, numbers left empty by an edit included.
+    ///
+    /// Raises pliant.Error: NoSuchBody. Cost: O(1).
     fn triangle_count(&self, py: Python<'_>, body: Body) -> Result<usize> {
         ask!(self, py, world => world.triangle_count(body.0)?)
     }
 
-    /// How many vertices a body has: the length that its positions must have.
+    /// Number of vertices of a body, empty ones included; the rows of its positions.
+    ///
+    /// Raises pliant.Error: NoSuchBody. Cost: O(1).
     fn vertex_count(&self, py: Python<'_>, body: Body) -> Result<usize> {
         ask!(self, py, world => world.vertex_count(body.0)?)
     }
 
-    /// The tree of a body in numbers.
+    /// Size of a body's tree, a TreeShape: depth, nodes, leaves.
+    ///
+    /// Raises pliant.Error: NoSuchBody.
     fn tree_shape<'py>(&self, py: Python<'py>, body: Body) -> Answer<'py> {
         let shape = ask!(self, py, world => world.tree_shape(body.0)?)?;
         Ok(named!(py, "TreeShape" of shape: depth, nodes, leaves)?)
     }
 
-    /// For each triangle of a body, the part it is in when its tree is cut at a level, the root being level 0: (m,) uint32.
-    fn tree_cut(&self, py: Python<'_>, body: Body, level: u32) -> Result<Column<u32>> {
-        ask!(self, py, world => Column(world.tree_cut(body.0, level)?))
+    /// Part of each triangle when a body's tree is cut at a level, (m,) uint32.
+    ///
+    /// The part is the node of that level, or the leaf above it. Parts are numbered from 0 in tree
+    /// order. Level 0 is the root, and all levels from TreeShape.depth on are the leaves. Triangles
+    /// that an edit added are in trees of their own, with parts behind the others. An empty number
+    /// has 0xFFFFFFFF.
+    ///
+    /// Raises pliant.Error: NoSuchBody. Cost: O(m).
+    fn tree_cut(&self, py: Python<'_>, body: Body, level: Number) -> Result<Column<u32>> {
+        ask!(self, py, world => Column(world.tree_cut(body.0, level.0)?))
     }
 
-    /// The faces of a body as they were added: (m, 3) uint32.
+    /// Faces of a body as added and edited, a new array (m, 3) uint32.
+    ///
+    /// A number that an edit left empty is 0xFFFFFFFF three times.
+    ///
+    /// Raises pliant.Error: NoSuchBody.
     fn triangles(&self, py: Python<'_>, body: Body) -> Result<Rows<u32, 3>> {
         ask!(self, py, world => Rows(world.triangles(body.0)?.to_vec()))
     }
 
-    /// The shape that a body has now, the positions that it was given last: a new array (n, 3) of the world's type.
+    /// Present shape of a body, a new array (n, 3) of the world's dtype.
+    ///
+    /// Rows of vertices that an edit left empty are NaN.
+    ///
+    /// Raises pliant.Error: NoSuchBody.
     fn positions(&self, py: Python<'_>, body: Body) -> Result<Owned> {
         ask!(self, py, world => Owned::from(world.positions(body.0)?))
     }
 
-    /// The boxes of a level of a body's tree, the root being level 0, and which of them are valid, that is, held by the tree for the
-    /// shape that the body has now: TreeBoxes(lower, upper, valid), (k, 3), (k, 3) and (k,), one row a part of tree_cut. Makes no
-    /// box, and reads none.
-    fn tree_boxes<'py>(&self, py: Python<'py>, body: Body, level: u32) -> Answer<'py> {
+    /// Boxes of a level of a body's tree, a TreeBoxes: lower, upper, valid.
+    ///
+    /// lower and upper are (k, 3), of the world's dtype, valid is (k,) bool. A row is a part of
+    /// tree_cut, the root being level 0. valid says whether the tree holds the box for the present
+    /// shape, or it is stale. Makes no box, and reads none.
+    ///
+    /// Raises pliant.Error: NoSuchBody. Cost: O(m).
+    fn tree_boxes<'py>(&self, py: Python<'py>, body: Body, level: Number) -> Answer<'py> {
         let (lower, upper, valid) = ask!(self, py, world => {
-            let boxes = world.tree_boxes(body.0, level)?.into_iter();
+            let boxes = world.tree_boxes(body.0, level.0)?.into_iter();
             let row = |node: NodeBox<_>| (node.lower, node.upper, node.valid);
             let (lower, upper, valid): (Vec<_>, Vec<_>, Vec<_>) = boxes.map(row).collect();
             (Owned::from(lower), Owned::from(upper), Column(valid))
@@ -455,104 +647,187 @@ impl World {
         Ok(named!(py, "TreeBoxes": lower = lower, upper = upper, valid = valid)?)
     }
 
-    /// The order in which queries read the vertices of a body, as they were numbered when it was added: (n,) uint32. A body whose
-    /// vertices come in this order, and whose faces name the new numbers, is faster.
+    /// Order in which queries read the vertices of a body, (n,) uint32.
+    ///
+    /// Queries are faster on a mesh whose vertices come in this order. To renumber, give
+    /// positions[order], and faces with the new numbers.
+    ///
+    /// Raises pliant.Error: NoSuchBody.
     fn vertex_order(&self, py: Python<'_>, body: Body) -> Result<Column<u32>> {
         ask!(self, py, world => Column(world.vertex_order(body.0)?.to_vec()))
     }
 
-    /// Asks which triangles intersect, of different bodies or of one: pairs of them, as closed sets. Touching counts. The Selection
-    /// says who is asked about; the Query that comes back, how much is wanted: all(), first(), visit(...) or prepare().
+    /// Asks which triangles intersect: a Query, all() of which is (k, 4) uint32, sorted.
     ///
-    /// Within a body, triangles that share a vertex of the mesh are left out: they always touch. Surfaces only: a body wholly inside
-    /// another meets none of its triangles.
+    /// A row is body, triangle, body, triangle. Triangles are closed sets: touching counts, and so
+    /// does coplanar overlap. A degenerate triangle is the segment or point that it is. The
+    /// decision is that of exact arithmetic on the coordinates given.
+    ///
+    /// Within a body, triangles that share a vertex are left out. Surfaces only: a body wholly
+    /// inside another meets none of its triangles. The default selection leaves out each body with
+    /// itself: see Selection.EVERYTHING.
+    ///
+    /// Nothing is computed until the query is asked. Errors and cost are at Query.
     #[pyo3(signature = (of=Selection::WORLD))]
     fn intersections(&self, of: Selection) -> Query {
         Query::new(&self.state, of, Pairs::Intersections)
     }
 
-    /// Asks which triangles intersect, as intersections does, and how: whether they cross, overlap in one plane, or only touch. only, a
-    /// ContactKind, leaves out what is not of one kind: where surfaces lie on each other, along a cut or in a stack, it finds what goes
+    /// Asks which triangles intersect, and how: a ContactQuery, all() of which is a Contacts.
+    ///
+    /// Triangles are found as by intersections. Each pair is crossing, overlapping in one plane, or
+    /// only touching, decided exactly: see ContactKind. only leaves out all other kinds. Where
+    /// surfaces lie on each other, along a cut or in a stack, ContactKind.CROSSING finds what goes
     /// through.
+    ///
+    ///     query = world.contacts(Selection.WORLD, only=ContactKind.CROSSING)
+    ///     pairs, kind = query.all()           # (k, 4) uint32, (k,) uint8
+    ///
+    /// Nothing is computed until the query is asked. Errors are at Query. A value that is no
+    /// ContactKind raises ValueError.
+    ///
+    /// Cost: that of intersections. Pairs whose kind rounded signs leave open take their exact
+    /// signs once more.
     #[pyo3(signature = (of=Selection::WORLD, *, only=None))]
     fn contacts(&self, of: Selection, only: Option<Only>) -> ContactQuery {
         ContactQuery::new(&self.state, of, Contacts { only })
     }
 
-    /// Asks which vertices are near which triangles, now or on the way to the end of a motion: rows of body, vertex, body, triangle.
+    /// Asks which vertices are near which triangles: a Query, all() of which is (k, 4) uint32.
     ///
-    /// The box of an element is the hull of its corners, at both ends of the motion where there is one. A vertex and a triangle are a
-    /// candidate if on every axis the gap of their boxes is at most twice radius, in real arithmetic on the numbers given, and the vertex
-    /// is no corner of the triangle. So with half the distance at which things are to be found nothing is missed that comes as near as
-    /// that. Of two bodies it is the vertices of either and the triangles of the other. Filters keep bodies apart as in intersections,
-    /// and set_vertex_groups keeps apart parts of them.
+    /// A row is body, vertex, body, triangle. For solvers that then measure, or find when they
+    /// touch; edge_edge_candidates is the other half. With a motion, the whole way to its end
+    /// counts.
+    ///
+    /// The box of an element is the hull of its corners, at both ends of a motion. A vertex and a
+    /// triangle are a candidate if on every axis the gap of their boxes is at most 2 radius,
+    /// decided exactly. So radius = distance / 2 misses nothing that comes within distance. Corners
+    /// of the triangle itself are left out, and vertices without triangles.
+    ///
+    /// Of two bodies, vertices of either and triangles of the other are looked at. Filters and
+    /// set_vertex_groups keep elements apart.
+    ///
+    /// Nothing is computed until the query is asked. Errors are at Query: BadMargin if radius is
+    /// negative, infinite or NaN.
     fn vertex_triangle_candidates(&self, of: Selection, radius: f64) -> Query {
         Query::new(&self.state, of, Pairs::VertexTriangleCandidates(radius))
     }
 
-    /// Asks which edges are near which edges, as vertex_triangle_candidates asks it of vertices and triangles: rows of body, edge, body,
-    /// edge, the smaller (body, edge) first, or the body that the selection names first. Edges have the numbers that edges(body) gives
-    /// them; two that have an end in common are none.
+    /// Asks which edges are near which edges: a Query, all() of which is (k, 4) uint32.
+    ///
+    /// A row is body, edge, body, edge. The smaller (body, edge) comes first, or the body that the
+    /// selection names first. Edges are numbered by rows of edges(body). Edges with an end in
+    /// common are left out. All else is as for vertex_triangle_candidates, radius included.
+    ///
+    /// Nothing is computed until the query is asked. Errors are at Query: BadMargin if radius is
+    /// negative, infinite or NaN.
     fn edge_edge_candidates(&self, of: Selection, radius: f64) -> Query {
         Query::new(&self.state, of, Pairs::EdgeEdgeCandidates(radius))
     }
 
-    /// Asks which vertices are close to which triangles, in the shape of now: those at most distance apart, with their closest points.
+    /// Asks which vertices and triangles are at most distance apart: a CloseQuery.
     ///
-    /// Whether a pair is that close is decided exactly, in real arithmetic on the numbers given. Which pairs are looked at is said at
-    /// vertex_triangle_candidates: no corner of a triangle is close to it, vertex groups and filters count. A motion is not looked at.
+    /// Its all() is a ClosePairs: distances, directions and closest points. It is what penalty,
+    /// barrier and position-based solvers push apart; close_edge_edge_pairs is the other half.
+    ///
+    /// Whether a pair is that close is decided exactly, in the present shape. A motion is not
+    /// looked at. The query looks at the pairs of vertex_triangle_candidates: corners of the
+    /// triangle itself are left out, filters and vertex groups count.
+    ///
+    /// Nothing is computed until the query is asked. Errors are at CloseQuery.
     fn close_vertex_triangle_pairs(&self, of: Selection, distance: f64) -> CloseQuery {
         CloseQuery::new(&self.state, of, Close::VertexTriangle(distance))
     }
 
-    /// Asks which edges are close to which edges, as close_vertex_triangle_pairs asks it of vertices and triangles. Two that have an end in
-    /// common are not looked at.
+    /// Asks which edges are at most distance apart: a CloseQuery.
+    ///
+    /// Its all() is a ClosePairs. Edges are numbered by rows of edges(body). Edges with an end in
+    /// common are left out. All else is as for close_vertex_triangle_pairs.
+    ///
+    /// Nothing is computed until the query is asked. Errors are at CloseQuery.
     fn close_edge_edge_pairs(&self, of: Selection, distance: f64) -> CloseQuery {
         CloseQuery::new(&self.state, of, Close::EdgeEdge(distance))
     }
 
-    /// Asks which triangles are close to each other, in the shape of now: those at most distance apart, with their closest points; those
-    /// that intersect are, at distance 0. Within a body, those that share a vertex of the mesh are left out.
+    /// Asks which triangles are at most distance apart: a CloseQuery.
+    ///
+    /// Its all() is a ClosePairs. For bodies that should keep a distance from each other. Triangles
+    /// that intersect are close, at distance 0. Within a body, triangles that share a vertex are
+    /// left out. Decided exactly, in the present shape.
+    ///
+    /// Nothing is computed until the query is asked. Errors are at CloseQuery.
     fn close_triangle_pairs(&self, of: Selection, distance: f64) -> CloseQuery {
         CloseQuery::new(&self.state, of, Close::Triangles(distance))
     }
 
-    /// How far the surfaces of two bodies are apart: their closest triangles, a ClosePair; None if they are further apart than cut_off.
-    /// The distance is 0 exactly if any of their triangles intersect; a body wholly inside another is as far from it as its surface is.
+    /// Distance of the surfaces of two bodies, a ClosePair of their closest triangles.
+    ///
+    /// None if they are further apart than cut_off, which may be infinite. The distance is 0
+    /// exactly if any of their triangles intersect. A body wholly inside another is as far from it
+    /// as its surface is. Filters and motions are not looked at.
+    ///
+    /// Raises pliant.Error: NoSuchBody, SameBody if a is b, BadDistance if cut_off is negative or
+    /// NaN.
+    ///
+    /// Cost: refits of intersections, and the triangles whose boxes are nearer than the bodies are.
+    /// The closest triangles of the last time are measured first.
     #[pyo3(signature = (a, b, cut_off=f64::INFINITY))]
     fn distance<'py>(&self, py: Python<'py>, a: Body, b: Body, cut_off: f64) -> Maybe<'py> {
-        let found = search!(self, py, world => world.distance(a.0, b.0, cut_off))?;
+        let found = search!(self, py, world => world.distance(a.0, b.0, cut_off))
+            .map_err(|refused| refused.distance_is("cut_off"))?;
         Ok(found.map(|pair| pair.one(py)).transpose()?)
     }
 
-    /// How far a body is from all others that may meet it, as filters say: the distance to the nearest of them, which the ClosePair names;
-    /// None if no other is within cut_off.
+    /// Distance of a body to the nearest other that it may meet, a ClosePair.
+    ///
+    /// Its pair names the other body. Filters say whom it may meet. None if no other is within
+    /// cut_off, which may be infinite.
+    ///
+    /// Raises pliant.Error: NoSuchBody, BadDistance if cut_off is negative or NaN.
+    ///
+    /// Cost: that of distance, for the bodies whose boxes are nearer than the nearest is.
     #[pyo3(signature = (body, cut_off=f64::INFINITY))]
     fn nearest_body<'py>(&self, py: Python<'py>, body: Body, cut_off: f64) -> Maybe<'py> {
-        let found = search!(self, py, world => world.nearest_body(body.0, cut_off))?;
+        let found = search!(self, py, world => world.nearest_body(body.0, cut_off))
+            .map_err(|refused| refused.distance_is("cut_off"))?;
         Ok(found.map(|pair| pair.one(py)).transpose()?)
     }
 
-    /// Asks which vertices and triangles meet on the way to the end of a motion, and when first; edge_edge_impacts is the other half.
+    /// Asks which vertices and triangles meet during the motion, and when: an ImpactQuery.
     ///
-    /// Vertices move on straight lines, from where they are at time 0 to where set_motion said at time 1; a body without a motion stands
-    /// still. Whether a pair meets, as closed sets, is decided exactly. They are apart from time 0 to low, both included, and meet after
-    /// that and not after high, which are at most width apart; both are 0 if they meet at the start. Which pairs are looked at is said at
-    /// vertex_triangle_candidates.
+    /// Its all() is an Impacts: pairs, low and high. Continuous collision detection;
+    /// edge_edge_impacts is the other half. Vertices move on straight lines, from the present shape
+    /// at time 0 to that of set_motion at time 1. A body without a motion stands still.
+    ///
+    /// Whether a pair meets, as closed sets, is decided exactly. It is apart from time 0 to low,
+    /// both included, and meets after low and by high. high - low is at most width. Both are 0 if
+    /// it meets at the start. The query looks at the pairs of vertex_triangle_candidates: corners
+    /// of the triangle itself are left out, filters and vertex groups count.
+    ///
+    /// Nothing is computed until the query is asked. Errors are at ImpactQuery. first() is much
+    /// faster than all().
     #[pyo3(signature = (of, width=1e-6))]
     fn vertex_triangle_impacts(&self, of: Selection, width: f64) -> ImpactQuery {
         ImpactQuery::new(&self.state, of, Impacts::VertexTriangle(width))
     }
 
-    /// Asks which edges meet on the way to the end of a motion, and when first, as vertex_triangle_impacts asks it of vertices and
-    /// triangles. Two that have an end in common are not looked at.
+    /// Asks which edges meet during the motion, and when: an ImpactQuery.
+    ///
+    /// Its all() is an Impacts. Edges are numbered by rows of edges(body). Edges with an end in
+    /// common are left out. All else is as for vertex_triangle_impacts, width included.
+    ///
+    /// Nothing is computed until the query is asked. Errors are at ImpactQuery.
     #[pyo3(signature = (of, width=1e-6))]
     fn edge_edge_impacts(&self, of: Selection, width: f64) -> ImpactQuery {
         ImpactQuery::new(&self.state, of, Impacts::EdgeEdge(width))
     }
 
-    /// The first contact on the way to the end of a motion, an Impact, of all vertex_triangle_impacts and edge_edge_impacts: that with the
-    /// least exact time; None if nothing meets. Much faster than all.
+    /// First contact of the motion, an Impact of either kind, or None if nothing meets.
+    ///
+    /// It has the least exact time of all vertex_triangle_impacts and edge_edge_impacts. Much
+    /// faster than either list. high - low is at most width.
+    ///
+    /// Raises pliant.Error: NoSuchBody, SameBody, BadWidth if width is negative, infinite or NaN.
     #[pyo3(signature = (of, width=1e-6))]
     fn first_impact<'py>(&self, py: Python<'py>, of: Selection, width: f64) -> Maybe<'py> {
         let found = search!(self, py, world => world.first_impact(of.0, width))?;
@@ -563,21 +838,34 @@ impl World {
         Ok(impact.transpose()?)
     }
 
-    /// How far everything may go on its way to the end of a motion and stay further apart than min_distance, and what that number alone
-    /// does not say: a FreeStep(t, begins_in_contact, moves).
+    /// How far everything may go without collision: FreeStep(t, begins_in_contact, moves).
     ///
-    /// t is the time of collision_free_step, to call advance_motion with. It promises nothing for what is in contact at the start.
-    /// begins_in_contact is the first such pair, in the shape of now: a Pair of triangles that intersect, as intersections looks at them,
-    /// unless all six vertices are of one group; else a VertexTriangle or an EdgeEdge that are at most min_distance apart, as impacts look
-    /// at them; None if everything begins apart. Surfaces that are through each other meet on every way out, so t may be small for no
-    /// other reason; elements that touch may go through each other, and those nearer than min_distance may come nearer. A mesh with edges
-    /// shorter than min_distance is always that near to itself. Triangles that share a vertex and are through each other beyond it are
-    /// not found.
+    /// t, from 0 to 1, is the time of collision_free_step, to call advance_motion with. Up to t,
+    /// everything stays further apart than min_distance, in the unit of the positions. It promises
+    /// nothing for pairs in contact at the start:
     ///
-    /// moves is False if no body that is asked about has a motion; then t is 1.
+    /// - surfaces that are through each other meet on every way out, so t may be small for no other
+    ///   reason
+    /// - elements that touch may go through each other, and nearer ones than min_distance may come
+    ///   nearer
+    ///
+    /// begins_in_contact is the first such pair in the present shape, or None. It is a Pair if
+    /// triangles intersect, unless one group has all six vertices. Else it is a VertexTriangle or
+    /// an EdgeEdge at most min_distance apart. A mesh with edges shorter than min_distance is
+    /// always that near to itself. Triangles that share a vertex and are through each other beyond
+    /// it are not found.
+    ///
+    /// moves is False if no selected body has a motion; t is then 1.
+    ///
+    /// Raises pliant.Error: NoSuchBody, SameBody, BadDistance if min_distance is negative, infinite
+    /// or NaN.
+    ///
+    /// Cost: collision_free_step, both queries for close pairs within min_distance, and the first
+    /// intersection.
     #[pyo3(signature = (of, min_distance=0.0))]
     fn free_step<'py>(&self, py: Python<'py>, of: Selection, min_distance: f64) -> Answer<'py> {
-        let step = search!(self, py, world => world.free_step(of.0, min_distance))?;
+        let step = search!(self, py, world => world.free_step(of.0, min_distance))
+            .map_err(|refused| refused.distance_is("min_distance"))?;
         let pair = step.begins_in_contact.map(|pair| match pair {
             InContact::Triangles(pair) => pair.one(py),
             InContact::VertexTriangle(pair) => pair.one(py),
@@ -587,22 +875,35 @@ impl World {
         Ok(named!(py, "FreeStep": t = step.t, begins_in_contact = pair, moves = step.moves)?)
     }
 
-    /// How far everything may go on its way to the end of a motion and stay further apart than min_distance: a time from 0 to 1 to call
-    /// advance_motion with. It is proven that on straight ways to the shape that this makes, rounded as it is, no vertex meets a triangle
-    /// and no edge another, nor comes as near as min_distance. 1 if that is so of the whole motion. 1 also if nothing moves, and less
-    /// without a word if the start intersects: free_step says so.
+    /// Time t from 0 to 1 up to which everything stays further apart than min_distance.
     ///
-    /// It is at least 0.9 of the largest such time where rounding leaves room for that. What touches at the start already does not count;
-    /// what is within min_distance at the start is kept from contact alone.
+    /// For advance_motion. On straight ways to the shape that this makes, rounded as it is, no
+    /// vertex meets a triangle and no edge another. That is proven. 1 means the whole motion, and
+    /// also that nothing moves.
+    ///
+    /// t is at least 0.9 of the largest such time where rounding leaves room. Pairs that touch at
+    /// the start do not count. Pairs within min_distance at the start are kept from contact alone.
+    /// A start that intersects is not told: see free_step.
+    ///
+    /// Raises pliant.Error: NoSuchBody, SameBody, BadDistance if min_distance is negative, infinite
+    /// or NaN.
     #[pyo3(signature = (of, min_distance=0.0))]
     fn collision_free_step(&self, py: Python<'_>, of: Selection, min_distance: f64) -> Result<f64> {
         search!(self, py, world => world.collision_free_step(of.0, min_distance))
+            .map_err(|refused| refused.distance_is("min_distance"))
     }
 
-    /// How far each vertex may move before anything can touch: a dictionary of bodies, with an array (n,) float64 each, at most half of
-    /// cut_off. It is half the least distance of the vertices and triangles, and edges and edges, that the vertex is a corner of, as
-    /// close_vertex_triangle_pairs looks at them; rounded down by at most 1e-6 of itself and 1e-323. If every vertex moves less than that, in
-    /// whatever direction, none of these touch.
+    /// How far each vertex may move before anything can touch: dict of body to (n,) float64.
+    ///
+    /// It is half the least distance of the elements that the vertex is a corner of, at most
+    /// cut_off / 2. Elements are the pairs of close_vertex_triangle_pairs and
+    /// close_edge_edge_pairs. It is rounded down, by at most 1e-6 of itself and 1e-323. If every
+    /// vertex moves less than that, in whatever direction, none of these pairs touches.
+    ///
+    /// Raises pliant.Error: NoSuchBody, SameBody, BadDistance if cut_off is negative, infinite or
+    /// NaN.
+    ///
+    /// Cost: both queries for close pairs within cut_off.
     #[pyo3(signature = (of, cut_off))]
     fn clearance<'py>(
         &self,
@@ -610,7 +911,8 @@ impl World {
         of: Selection,
         cut_off: f64,
     ) -> Result<Bound<'py, PyDict>> {
-        let clearances = search!(self, py, world => world.clearance(of.0, cut_off))?;
+        let clearances = search!(self, py, world => world.clearance(of.0, cut_off))
+            .map_err(|refused| refused.distance_is("cut_off"))?;
         let of_bodies = PyDict::new(py);
         for (body, clearance) in clearances {
             of_bodies.set_item(body.0, Column(clearance))?;
@@ -618,7 +920,7 @@ impl World {
         Ok(of_bodies)
     }
 
-    /// What the last query did, with what Query.prepare did before it.
+    /// Counters of the work of the last query, Query.prepare included: a Statistics.
     fn statistics<'py>(&self, py: Python<'py>) -> Answer<'py> {
         let statistics = ask!(self, py, world => *world.statistics())?;
         Ok(named!(py, "Statistics" of statistics:
@@ -626,15 +928,19 @@ impl World {
             candidate_pairs, scalar_decisions, exact_decisions, pairs)?)
     }
 
-    /// How many bytes of memory this world holds: bodies, trees, boxes, and the lists that queries keep for the next ones, with all
-    /// that they have room for; and the room into which set_positions copies. Arrays that were handed out are not counted.
+    /// Bytes of memory that this world holds: bodies, trees, boxes, lists kept for queries.
+    ///
+    /// Reserved memory counts, and so does the copy that set_positions keeps. Arrays that were
+    /// handed out, threads and a query under way do not.
     fn memory_usage(&self, py: Python<'_>) -> Result<usize> {
         let room = self.state.alone()?.room(py);
         ask!(self, py, world => world.memory_usage() + room)
     }
 
-    /// Checks every invariant of every tree, and raises pliant.Error if one does not hold. For tests and bug reports; no
-    /// sequence of calls should ever make it fail.
+    /// Checks every invariant of every tree, for tests and bug reports. Should never fail.
+    ///
+    /// Raises pliant.Error: Broken if an invariant does not hold. Cost: O(m) for each level of a
+    /// tree.
     fn validate(&self, py: Python<'_>) -> Result<()> {
         ask!(self, py, world => world.validate().map_err(|what| Refused::new("Broken", what))?)
     }

@@ -56,7 +56,7 @@ def test_one_kind_alone(kind: ContactKind) -> None:
 
 
 def test_kinds_that_are_none() -> None:
-    with pytest.raises(ValueError, match="3 is no pliant.ContactKind"):
+    with pytest.raises(ValueError, match="3 is not a pliant.ContactKind: give only=ContactKind.CROSSING"):
         world_of().contacts(only=3)
     with pytest.raises(TypeError):
         world_of().contacts(only="crossing")  # type: ignore[arg-type]

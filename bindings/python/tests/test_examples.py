@@ -39,6 +39,16 @@ def test_readme(readme: Path) -> None:
     assert len(names["hits"]) > 0
 
 
+def test_examples_of_the_readme(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """All its blocks of Python behind the first, one after the other; they assert what they say."""
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, Any] = {}
+    blocks = (HERE.parent / "README.md").read_text().split("```python\n")[2:]
+    for block in blocks:
+        exec(block.split("```")[0], names)
+    assert len(blocks) == 7 and capsys.readouterr().out.startswith("0 0 (0, 4)\n1 ")
+
+
 def test_tearing_cloth_of_the_guide() -> None:
     """Its last block of Python: along the middle a cloth of 128 triangles comes to have two edges that part."""
     names: dict[str, Any] = {}

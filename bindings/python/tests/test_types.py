@@ -106,6 +106,60 @@ def test_everything_public_is_in_the_package() -> None:
             assert thing.__module__ == "pliant", name
 
 
+def documented() -> dict[str, str]:
+    """The documentation of everything public: classes, their methods and properties, functions."""
+    public = {name: getattr(pliant, name) for name in pliant.__all__ if name != "__version__"}
+    of_classes = {
+        f"{name}.{member}": getattr(thing, member)
+        for name, thing in public.items()
+        if isinstance(thing, type) and hasattr(pliant._pliant, name)
+        for member in of_class(thing)
+    }
+    return {name: inspect.getdoc(thing) or "" for name, thing in (public | of_classes).items()}
+
+
+def kinds_of_errors() -> set[str]:
+    return set(re.findall(r"^  ([A-Z]\w+)  ", inspect.getdoc(pliant.Error) or "", re.MULTILINE))
+
+
+def test_help_says_which_kinds_of_errors_there_are() -> None:
+    variants = re.findall(r"^    (\w+)(?:,| \{)$", source_of("..", "error.rs").split("impl ErrorKind")[0], re.MULTILINE)
+    assert {"NoTriangles", "OutdatedEdit"} < set(variants)
+    of_python = {"Precision", "BadArray", "Busy", "BadOption", "CannotRead", "Broken"}
+    # Python has exceptions of signal handlers in place of the other.
+    assert kinds_of_errors() == (set(variants) - {"Interrupted"}) | of_python
+
+
+def test_help_names_the_errors_of_every_call() -> None:
+    named = 0
+    for name, text in documented().items():
+        first, *rest = text.splitlines()
+        assert first.endswith(".") and len(first) <= 90 and not any(rest[:1]), name
+        assert all(len(line) <= 100 for line in rest), name
+        for raised in re.findall(r"Raises pliant\.Error: (.*?)(?:\n\n|$)", text, re.DOTALL):
+            said = set(re.findall(r"\b[A-Z][a-z]+[A-Z]\w+\b|\bPrecision\b|\bBusy\b", raised))
+            assert said - kinds_of_errors() <= {"OverflowError", "ValueError", "TypeError", "ContactKind"}, name
+            named += 1
+    assert named > 60
+    for name, method in vars(pliant.World).items():
+        if name[0] != "_" and callable(method) and {"body", "a"} & set(inspect.signature(method).parameters):
+            assert "NoSuchBody" in documented()[f"World.{name}"], name
+
+
+def test_stubs_have_the_first_lines_of_help() -> None:
+    stub = ast.parse((PACKAGE / "_pliant.pyi").read_text())
+    said = {}
+    for thing in stub.body:
+        of_thing = thing.body if isinstance(thing, ast.ClassDef) else []
+        for member in [thing, *of_thing]:
+            if isinstance(member, ast.ClassDef | ast.FunctionDef) and (text := ast.get_docstring(member)):
+                said[member.name if member is thing else f"{getattr(thing, 'name')}.{member.name}"] = text
+    hidden = {f"reference_{name}" for name in pliant.reference.__all__}
+    first = {name: text.splitlines()[0] for name, text in documented().items() if hasattr(pliant._pliant, name.split(".")[0])}
+    constants_of = {"Selection.WORLD", "Selection.EVERYTHING"}
+    assert {name: text for name, text in said.items() if name not in hidden} == {name: text for name, text in first.items() if name not in constants_of}
+
+
 def test_the_package_knows_its_version() -> None:
     assert pliant.__version__ == importlib.metadata.version("pliant")
 

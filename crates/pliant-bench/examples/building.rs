@@ -1,14 +1,18 @@
-//! How long it takes to build: `World::add` with default options beside parry3d's `TriMesh`, at equal size.
+//! Time to build a body: `World::add` with default options beside parry3d's `TriMesh`, at equal
+//! size.
 //!
 //! ```sh
-//! cargo run --release -p pliant-bench --features peers --example building    # up to 1.3 million triangles
-//! cargo run --release -p pliant-bench --features peers --example building -- cloth:10008338 # any scene, any of its sizes; some gigabytes
+//! # up to 1.3 million triangles
+//! cargo run --release -p pliant-bench --features peers --example building
+//! # any scene, any of its sizes; some gigabytes
+//! cargo run --release -p pliant-bench --features peers --example building -- cloth:10008338
 //! ```
 //!
-//! The two take turns, so that a machine that is slow for a while is slow for both. Timed is the whole public call: for pliant
-//! the check of the input, the tree and its own copy of triangles and positions; for parry3d the tree, over vectors that it is
-//! given for good and that are made before the clock starts. Freeing is not timed. The ratio is taken round by round, and then
-//! its median.
+//! The two take turns, so that a machine that is slow for a while is slow for both. The ratio is
+//! taken round by round, then its median. The whole public call is timed, but no freeing.
+//!
+//! - pliant: the check of the input, the tree, and copies of triangles and positions.
+//! - parry3d: the tree. Vectors that it keeps are made before the clock starts.
 
 use parry3d::math::Vector;
 use parry3d::shape::{TriMesh, TriMeshFlags};
@@ -17,7 +21,7 @@ use pliant_bench::machine::this_machine;
 use pliant_scenes::Scene;
 use std::time::Instant;
 
-/// Scene and triangles a body; the first body is built.
+/// Scenes and triangles a body. The first body is built.
 const DEFAULT: [&str; 4] = [
     "spheres:20480",
     "cloth:79202",
@@ -29,7 +33,8 @@ fn main() {
     let machine = this_machine();
     println!("{}, {} build", machine.processor, machine.profile);
     println!(
-        "median and fastest of the rounds, milliseconds; ratio: parry3d / pliant, its median and range\n"
+        "median and fastest of the rounds, milliseconds; \
+         ratio: parry3d / pliant, its median and range\n"
     );
     println!(
         "{:<18} {:>6}   {:>10} {:>10}   {:>10} {:>10}   {:>6}",
@@ -50,7 +55,7 @@ fn main() {
     }
 }
 
-/// The first body of a scene, as it begins.
+/// First body of a scene, in its first shape.
 fn body_of(mesh: &str) -> Result<(Vec<[u32; 3]>, Vec<[f32; 3]>), String> {
     let (name, triangles) = mesh.split_once(':').ok_or("no size")?;
     let triangles = triangles.parse().map_err(|_| "the size is not a number")?;

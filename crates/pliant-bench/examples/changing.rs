@@ -1,14 +1,17 @@
-//! Where the time of a scene whose meshes change goes, for profilers: edits, shapes, and the query, step by step.
+//! Time of a scene whose meshes change, by edits, shapes and query, step by step; for profilers.
 //!
 //! ```sh
-//! cargo run --release -p pliant-bench --example changing -- remesh          # every tenth step, and sums
-//! cargo run --release -p pliant-bench --example changing -- tear without    # the same shapes, in which nothing happens
-//! cargo run --release -p pliant-bench --example changing -- shuffle mended  # with trees that mend themselves
-//! cargo run --release -p pliant-bench --example changing -- shuffle fresh   # with fresh trees, which are built between steps
+//! # every tenth step, and sums
+//! cargo run --release -p pliant-bench --example changing -- remesh
+//! # the same shapes without edits
+//! cargo run --release -p pliant-bench --example changing -- tear without
+//! # with trees that mend themselves
+//! cargo run --release -p pliant-bench --example changing -- shuffle mended
+//! # with fresh trees, which are built between steps
+//! cargo run --release -p pliant-bench --example changing -- shuffle fresh
+//! # instructions of all steps, without building between them: free of noise
+//! valgrind --tool=callgrind --toggle-collect='changing::one_step' PROGRAM
 //! ```
-//!
-//! No noise of the machine is in `valgrind --tool=callgrind --toggle-collect='changing::one_step'` before the built program: it counts the
-//! instructions of all steps, but not of what is built between them.
 
 use pliant::{BodyId, Options, Selection, World};
 use pliant_bench::methods::add_step;
@@ -36,7 +39,7 @@ fn main() {
         })
         .collect();
     let mut sums = [0.0; 3];
-    // Trees are mended when shapes come.
+    // Trees are mended when shapes are set.
     let mut longest_shapes: f64 = 0.0;
     let mut steps = Vec::new();
     let mut shapes = vec![Vec::new(); ids.len()];
@@ -50,7 +53,7 @@ fn main() {
             for &id in &ids {
                 let _ = world.rebuild(id);
             }
-            // What neighbours are is part of building.
+            // Tables of neighbours are part of building.
             let _ = world.intersections(Selection::Everything).prepare();
         }
         for (sum, time) in sums.iter_mut().zip(times) {
@@ -64,7 +67,8 @@ fn main() {
             let (nodes, candidates) = (work.node_pairs, work.candidate_pairs);
             let quality = world.tree_quality(ids[0]).expect("it is there");
             println!(
-                "{step:6} {edits:8.3} {shapes:8.3} {query:8.3} {pairs:8} {nodes:10} {candidates:10} {quality:8.2}"
+                "{step:6} {edits:8.3} {shapes:8.3} {query:8.3} \
+                 {pairs:8} {nodes:10} {candidates:10} {quality:8.2}"
             );
         }
     }
@@ -80,8 +84,9 @@ fn main() {
     println!("the longest that shapes took, mending included: {longest_shapes:.3} ms");
 }
 
-/// What edits, shapes and the query took, and how many pairs there are. A function of its own, so that instructions can be counted between its
-/// beginning and its end.
+/// Times of edits, shapes and the query, and the number of pairs.
+///
+/// A function of its own, so that instructions can be counted inside it.
 #[inline(never)]
 fn one_step(
     world: &mut World<f32>,

@@ -1,12 +1,12 @@
-//! How good the parts of mesh connectivity trees are: the children of the root beside what METIS makes of the same mesh.
+//! Quality of mesh connectivity trees: the children of the root beside METIS on the same mesh.
 //!
 //! ```sh
 //! cargo run --release -p pliant-bench --features metis --example cut_against_metis
 //! ```
 //!
-//! METIS partitions the dual graph (triangles, linked over edges) by recursive bisection with its own defaults. It balances to
-//! a thousandth and does not care whether parts are connected; ours are connected and balanced to a hundredth a cut, and a
-//! component is never cut unless it must be.
+//! METIS partitions the dual graph (triangles, linked over edges) by recursive bisection with its
+//! own defaults. It balances to a thousandth and does not care whether parts are connected. Ours
+//! are connected, and balanced to a hundredth a cut. A component is never cut unless it must be.
 
 use pliant::{Degree, Options, Partition, World};
 use pliant_scenes::Scene;
@@ -44,7 +44,7 @@ fn main() {
     }
 }
 
-/// For each triangle the child of the root that it is below.
+/// Child of the root above each triangle.
 fn ours(triangles: &[[u32; 3]], positions: &[[f32; 3]], degree: Degree) -> Vec<u32> {
     let mut options = Options::default();
     options.partition = Partition::Connectivity;
@@ -56,7 +56,7 @@ fn ours(triangles: &[[u32; 3]], positions: &[[f32; 3]], degree: Degree) -> Vec<u
     world.tree_cut(body, 1).expect("the body is there")
 }
 
-/// Triangles, and which of them meet in each edge.
+/// Triangles, and the triangles that meet in each edge.
 struct Mesh<'a> {
     triangles: &'a [[u32; 3]],
     edges: Vec<Vec<u32>>,
@@ -99,7 +99,7 @@ impl<'a> Mesh<'a> {
         found.into_iter().map(i32::cast_unsigned).collect()
     }
 
-    /// Border, smallest and largest part, connected pieces.
+    /// Border, smallest and largest part, and number of connected pieces.
     fn describe(&self, parts: &[u32]) -> String {
         let cut = |around: &&Vec<u32>| {
             let part = |triangle: u32| parts[triangle as usize];
@@ -121,7 +121,7 @@ impl<'a> Mesh<'a> {
         format!("{border:>8} {smallest:>8} {largest:>8} {pieces:>7}")
     }
 
-    /// How many connected pieces the parts are, all together.
+    /// Total number of connected pieces of all parts.
     fn pieces(&self, parts: &[u32]) -> usize {
         let mut leaders: Vec<usize> = (0..parts.len()).collect();
         for around in &self.edges {
@@ -139,7 +139,7 @@ impl<'a> Mesh<'a> {
     }
 }
 
-/// The end of a chain of leaders, which gets shorter on the way.
+/// Union-find root of `of`, with path halving.
 fn leader(leaders: &mut [usize], mut of: usize) -> usize {
     while leaders[of] != of {
         leaders[of] = leaders[leaders[of]];

@@ -1,11 +1,12 @@
-//! What edits cost: a cut of some hundred triangles in a large body, beside building anew and obvhs; and the step after ten thousand.
+//! Cost of edits: a cut of some hundred triangles in a large body, beside building anew and obvhs.
 //!
 //! ```sh
 //! cargo run --release -p pliant-bench --features peers --example edits
 //! ```
 //!
-//! What an edit costs is the call of `apply` and what the next query takes longer than the same query before it. A triangle that is cut
-//! here becomes three: it has other corners, and two come.
+//! An edit costs the call of `apply`, and the extra time of the next query over the same query
+//! before. A triangle that is cut becomes three: it gets other corners, and two are added. The step
+//! after ten thousand edits is measured too.
 
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
@@ -16,9 +17,9 @@ use std::time::{Duration, Instant};
 
 /// Triangles of the large bodies.
 const LARGE: usize = 1_310_720;
-/// How many triangles are cut at once: with the two that come of each about a hundred.
+/// Number of triangles cut at once: with two new ones for each, about a hundred.
 const CUT: usize = 34;
-/// How often.
+/// Number of repetitions.
 const ROUNDS: usize = 41;
 
 fn milliseconds(since: Instant) -> f64 {
@@ -36,7 +37,7 @@ fn query(world: &mut World<f32>, of: Selection) -> f64 {
     milliseconds(start)
 }
 
-/// The spheres of the scene, half in each other.
+/// The two spheres of the scene, half in each other.
 fn spheres(triangles: usize) -> (World<f32>, Vec<BodyId>, Vec<Vec<[f32; 3]>>) {
     let scene = Scene::new("spheres", Some(triangles), Scene::DEFAULT_SEED);
     let scene = scene.expect("a size of the scene's");
@@ -52,7 +53,7 @@ fn spheres(triangles: usize) -> (World<f32>, Vec<BodyId>, Vec<Vec<[f32; 3]>>) {
     (world, ids, shapes)
 }
 
-/// Makes three of a triangle; the new vertex is in its middle.
+/// Cuts a triangle into three, with a new vertex in its middle.
 fn cut(edit: &mut Edit<f32>, triangle: u32, corners: [u32; 3], shape: &mut Vec<[f32; 3]>) {
     let at = corners.map(|vertex| shape[vertex as usize]);
     let middle = std::array::from_fn(|axis| (at[0][axis] + at[1][axis] + at[2][axis]) / 3.0);
@@ -206,7 +207,8 @@ fn after_ten_thousand() {
         edited / 1e4
     );
     println!(
-        "the step after them {after:.3} ms, with a fresh tree {fresh:.3} ms: {:.2} times; pairs of nodes {:.2} times",
+        "the step after them {after:.3} ms, with a fresh tree {fresh:.3} ms: {:.2} times; \
+         pairs of nodes {:.2} times",
         after / fresh,
         nodes as f64 / fresh_nodes as f64
     );

@@ -1,15 +1,20 @@
-//! Bytes a triangle: what a library keeps for bodies that move, with all that a step needs, beside what others keep.
+//! Memory in bytes a triangle that a library keeps for moving bodies, with all that a step needs.
 //!
 //! ```sh
-//! cargo run --release -p pliant-bench --features peers --example memory      # 20,480 and 1,310,720 triangles a body
-//! cargo run --release -p pliant-bench --features peers --example memory -- cloth:79202 # any scene, any of its sizes
+//! # 20,480 and 1,310,720 triangles a body
+//! cargo run --release -p pliant-bench --features peers --example memory
+//! # any scene, any of its sizes
+//! cargo run --release -p pliant-bench --features peers --example memory -- cloth:79202
 //! ```
 //!
-//! Counted is the live heap of one thread, by an allocator that counts: built, then four steps of the scene, and at each of
-//! them every query: all pairs, the first, every body with itself. So everything that a step needs is there, at its largest:
-//! triangles, positions, trees, the lists of a query, and the pairs. *Building* is the most that is live while all bodies are
-//! built. The lists of pairs come twice for pliant, its own and that of this bench, which turns them into the bench's form.
-//! obvhs keeps trees alone: the triangles and positions that a query needs besides are its adaptor's, and counted.
+//! A counting allocator reports the live heap of one thread: after building, and after four steps
+//! of the scene with every query. The queries are all pairs, the first, and every body with itself.
+//! So all that a step needs is counted at its largest: triangles, positions, trees, lists of a
+//! query, and pairs. *Building* is the peak while all bodies are built.
+//!
+//! - pliant: lists of pairs count twice, once in the library and once in the bench's form.
+//! - obvhs keeps trees alone. The triangles and positions that a query needs are its adaptor's, and
+//!   counted.
 
 use pliant_bench::decision::exact;
 use pliant_bench::method::Method;
@@ -73,7 +78,7 @@ fn measure_all(scene: &str, motion: &Motion) {
     }
 }
 
-/// Bytes live after the steps, and the most while building.
+/// Live bytes after the steps, and the peak while building.
 fn measure(method: &mut dyn Method, motion: &Motion) -> [u64; 2] {
     let meshes = motion.meshes();
     let built = allocation_counter::measure(|| method.build(&meshes));

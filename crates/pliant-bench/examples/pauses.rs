@@ -1,11 +1,13 @@
-//! Longest pauses: between two looks of a query at whether it is interrupted, and while thousands of bodies are removed.
+//! Longest pauses: between two looks of a query for an interruption, and while thousands of bodies
+//! are removed.
 //!
 //! ```sh
 //! cargo run --release -p pliant-bench --example pauses    # seconds; a quiet machine
 //! ```
 //!
-//! Of a query each figure is that of the best of some tries, for other work on the machine makes any of them long. That queries look often
-//! enough is tested by counting work (`looks_are_never_far_apart`); these are the times of the same.
+//! A query's figure is the best of several tries, since other work on the machine makes any of them
+//! long. Whether queries look often enough is tested by counting work
+//! (`looks_are_never_far_apart`). This example measures the same pauses as times.
 
 use pliant::{Pair, Selection, World};
 use pliant_bench::machine::this_machine;
@@ -13,6 +15,7 @@ use pliant_scenes::Scene;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
+/// Measurements of each figure, the best of which counts.
 const TRIES: usize = 5;
 
 fn main() {
@@ -40,7 +43,7 @@ fn main() {
     }
 }
 
-/// The longest time between two looks, in milliseconds.
+/// Longest time between two looks, in milliseconds.
 fn longest(
     mut world: World<f32>,
     ask: impl Fn(&mut World<f32>, &(dyn Fn() -> bool + Sync)) -> Result<usize, pliant::Error>,
@@ -68,7 +71,7 @@ fn cloth() -> World<f32> {
     world
 }
 
-/// So many bodies of so many triangles, all nearly in one place.
+/// `count` bodies of `triangles` triangles each, all nearly in one place.
 fn bodies(count: u32, triangles: usize, step: f32) -> World<f32> {
     let mut world = World::new();
     for at in 0..count {
@@ -80,7 +83,7 @@ fn bodies(count: u32, triangles: usize, step: f32) -> World<f32> {
     world
 }
 
-/// How long it takes to remove all bodies, in milliseconds.
+/// Time to remove all bodies, in milliseconds.
 fn remove(count: u32, newest_first: bool) -> f64 {
     let mut world = World::<f32>::new();
     let mut ids = Vec::new();

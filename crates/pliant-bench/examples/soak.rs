@@ -1,13 +1,14 @@
-//! A world that lives long, in memory that stays flat: see `pliant_bench::soak`.
+//! Soak test: a long-lived world in memory that stays flat. See `pliant_bench::soak`.
 //!
 //! ```sh
 //! cargo run --release -p pliant-bench --example soak -- --steps 10000 --seconds 2400
 //! ```
 //!
-//! Twice: with 32-bit and with 64-bit coordinates, each for half of the time at most. After every tenth of the steps there is
-//! a parade, where the world always holds the same bodies, and the live heap is counted there. The exit code is 1 if an answer
-//! was wrong, or if at the last parade the heap is larger than at the second, or the resident set than at any in the first half, by more than
-//! is allowed below.
+//! It runs twice, with 32-bit and with 64-bit coordinates, each for half of the time at most. After
+//! every tenth of the steps there is a parade, where the world always holds the same bodies, and
+//! memory is counted. The exit code is 1 if an answer was wrong, or if memory grew too much, as
+//! said below. The heap is compared from the second parade to the last, the resident set with its
+//! maximum in the first half.
 
 use clap::Parser;
 use pliant::{Options, Scalar};
@@ -15,26 +16,30 @@ use pliant_bench::soak::{Soak, Tally, Wrong};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-/// A world that lives long, compared with fresh worlds at random steps; memory counted.
+/// Plays a long-lived world, compared with fresh worlds at random steps; counts memory.
 #[derive(Parser)]
 struct Arguments {
     /// Steps for each type of coordinates.
     #[arg(long, default_value_t = 10_000)]
     steps: u64,
-    /// When to stop, whatever has been done by then.
+    /// Time after which to stop, whatever has been done by then.
     #[arg(long, default_value_t = 600)]
     seconds: u64,
-    /// What everything is drawn from.
+    /// Seed of all random choices.
     #[arg(long, default_value_t = 1)]
     seed: u64,
 }
 
-/// How often memory is looked at.
+/// Number of parades, at which memory is looked at.
 const PARADES: u64 = 10;
-/// What the live heap may grow by, relative: nodes of the maps fall differently, and no list is longer than at a parade.
+/// Allowed growth of the live heap, relative.
+///
+/// Nodes of the maps fall differently, and no list is longer than at a parade.
 const HEAP_SLACK: f64 = 0.01;
-/// What the resident set may grow by in the second half: until then the allocator keeps more and more of what it was once asked for,
-/// as long as longer passing lists still come.
+/// Allowed growth of the resident set in the second half, relative.
+///
+/// Until then the allocator keeps more and more of its memory, as long as longer passing lists
+/// still come.
 const RESIDENT_SLACK: f64 = 0.1;
 
 fn main() -> ExitCode {
@@ -65,17 +70,18 @@ fn main() -> ExitCode {
     }
 }
 
-/// What is looked at after a parade.
+/// Memory after a parade.
 struct Memory {
     heap: i64,
     blocks: i64,
-    /// Bytes, where the system says so.
+    /// Bytes of the resident set, where the system reports it.
     resident: Option<u64>,
 }
 
 fn play<S: Scalar>(name: &str, mut soak: Soak<S>, steps: u64, until: Instant) -> Result<(), Wrong> {
     println!(
-        "{name:<4} {:>8} {:>8} {:>8} {:>9} {:>8} {:>8} {:>9} {:>12} {:>12} {:>12} {:>11} {:>9}   {:>11} {:>7} {:>9}",
+        "{name:<4} {:>8} {:>8} {:>8} {:>9} {:>8} {:>8} {:>9} \
+         {:>12} {:>12} {:>12} {:>11} {:>9}   {:>11} {:>7} {:>9}",
         "steps",
         "added",
         "removed",
@@ -120,7 +126,8 @@ fn play<S: Scalar>(name: &str, mut soak: Soak<S>, steps: u64, until: Instant) ->
     }
     let [bodies, triangles] = soak.size();
     println!("     at a parade: {bodies} bodies, {triangles} triangles");
-    // The first parade comes before the first step: lists were never as long as they get in a heap that moves.
+    // The first parade comes before the first step, when lists are not yet as long as in a heap
+    // that moves.
     if let [_, early, .., late] = &seen[..] {
         let first_half = seen[..=seen.len() / 2].iter();
         let most = first_half.filter_map(|memory| memory.resident).max();
@@ -149,7 +156,8 @@ fn line(tally: &Tally, memory: &Memory) {
         |bytes| format!("{:.1} MB", bytes as f64 / 1e6),
     );
     println!(
-        "{:>13} {:>8} {:>8} {:>9} {:>8} {:>8} {:>9} {:>12} {:>12} {:>12} {:>11} {:>9}   {:>11} {:>7} {:>9}",
+        "{:>13} {:>8} {:>8} {:>9} {:>8} {:>8} {:>9} \
+         {:>12} {:>12} {:>12} {:>11} {:>9}   {:>11} {:>7} {:>9}",
         tally.steps,
         tally.added,
         tally.removed,
@@ -175,7 +183,7 @@ fn grown(what: &str, early: f64, late: f64, slack: f64) -> Result<(), Wrong> {
     Ok(())
 }
 
-/// The resident set of this process, where there is a /proc.
+/// Resident set of this process, where there is a /proc.
 fn resident() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status

@@ -1,18 +1,20 @@
-//! How long the library takes in the windows of the benchmark's scenes, and nothing else: for a profiler, and while working on it.
-//!
-//! Every step is played several times, all steps one round after the other; a figure is the mean over the steps of a window of
-//! the least time that each step took, which other work on the machine hardly disturbs.
+//! Time of the library alone in the windows of the benchmark's scenes; for profilers, and while
+//! working on it.
 //!
 //! ```sh
 //! cargo run --release -p pliant-bench --example windows -- [NAME ...] [--rounds R]
 //! ```
+//!
+//! Every step is played several times, all steps one round after the other. A figure is the mean of
+//! each step's least time, over the steps of a window. Other work on the machine hardly disturbs
+//! it.
 
 use pliant::{BodyId, Degree, Scalar, Selection, World};
 use pliant_bench::motion::Motion;
 use pliant_scenes::Scene;
 use std::time::Instant;
 
-/// Name, scene, triangles a body, steps, what is asked.
+/// Name, scene, triangles a body, steps, and query.
 type Window = (
     &'static str,
     &'static str,
@@ -24,16 +26,16 @@ type Window = (
 #[derive(Clone, Copy)]
 enum Ask {
     All,
-    /// The same, with how each pair intersects.
+    /// Intersections with the kind of each contact.
     Contacts,
     First,
     Itself,
-    /// What is within so many mean lengths of an edge, by boxes; and what is close, measured.
+    /// Candidates by boxes, with a margin in mean edge lengths; and close pairs, measured.
     Near(f64),
     Close(f64),
-    /// How far two bodies are apart.
+    /// Distance of two bodies.
     Distance,
-    /// What meets on the way to the next step; and only the first.
+    /// Impacts on the way to the next step; and only the first.
     Meet,
     Earliest,
 }
@@ -66,7 +68,7 @@ const WINDOWS: [Window; 25] = [
     ("four", "spheres", 20_480, 200..=200, Ask::All),
 ];
 
-/// The degree of the trees in a window.
+/// Degree of the trees in a window.
 fn degree(window: &str) -> Degree {
     match window {
         "two" => Degree::Two,
@@ -99,7 +101,7 @@ fn main() {
     }
 }
 
-/// With the environment variables THREADS, and LEVEL of the hybrid update.
+/// Options by the environment variables THREADS, and LEVEL of the hybrid update.
 fn options(degree: Degree) -> pliant::Options {
     let mut options = pliant::Options::default();
     options.degree = degree;
@@ -116,7 +118,7 @@ fn options(degree: Degree) -> pliant::Options {
     options
 }
 
-/// Where a body is in a step, and where it is going.
+/// Positions of a body in a step, and at the end of its motion.
 struct Placed<S> {
     world: Vec<[S; 3]>,
     end: Option<Vec<[S; 3]>>,
@@ -132,7 +134,7 @@ fn play<S: Scalar + From<f32>>((name, scene, triangles, steps, ask): Window, rou
     if matches!(ask, Ask::Meet | Ask::Earliest) {
         motion = motion.on_the_way(&scene, 1.0);
     }
-    // Margins are in mean lengths of an edge.
+    // Margins are in mean edge lengths.
     let ask = match ask {
         Ask::Near(lengths) => Ask::Near(lengths * motion.mean_side()),
         Ask::Close(lengths) => Ask::Close(lengths * motion.mean_side()),
@@ -180,8 +182,9 @@ fn play<S: Scalar + From<f32>>((name, scene, triangles, steps, ask): Window, rou
     println!("         a step: {work:?} / {steps}");
 }
 
-/// Seconds until the positions were taken over, until the answer was there, and how many pairs. A function of its own, so that
-/// instructions can be counted between its beginning and its end.
+/// Seconds to set positions and to get the answer, and the number of pairs.
+///
+/// A function of its own, so that instructions can be counted inside it.
 #[inline(never)]
 fn one_step<S: Scalar>(
     world: &mut World<S>,

@@ -1,15 +1,14 @@
-//! Methods on one motion, turn by turn: first their answers are compared, then their times.
+//! Contests of methods on one motion, in turns: first their answers are compared, then their times.
 //!
-//! ```text
-//! round 0       every method plays all steps; its pairs must be the truth's, or it is out     (nothing timed)
-//! round 1..     every method plays all steps in a row, as a simulation would; another begins each round
-//!     a step    shapes written freshly into the buffers that methods read    (so vertices are in cache where they fit)
-//!               clock: step                    the update
-//!               clock: the query
-//! ```
+//! - Round 0 is not timed. Every method plays all steps. If its pairs are not the truth's, it is
+//!   out.
+//! - In every later round, each method plays all steps in a row, as a simulation would. Each round
+//!   begins with another method.
+//! - In a step, shapes are written freshly into the buffers that methods read, so vertices are in
+//!   the cache where they fit. Then the update and the query are timed, each alone.
 //!
-//! The figure of a step is the median of its rounds. Ratios are taken round by round, because a machine that is slow for a
-//! second is slow for both, and then the median.
+//! The figure of a step is the median of its rounds. Ratios are taken round by round, and then
+//! their median: a machine that is slow for a second is slow for both.
 
 use crate::method::{Counters, Method, Pair};
 use crate::motion::{Motion, Placed, Shape};
@@ -18,7 +17,7 @@ use pliant_scenes::{ChangingMesh, Event};
 use std::collections::BTreeSet;
 use std::time::Instant;
 
-/// What is asked at each step.
+/// The query of every step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Query {
     /// All pairs of triangles of different bodies.
@@ -38,7 +37,7 @@ pub enum Query {
 }
 
 impl Query {
-    /// As on the command line.
+    /// Name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::All => "all",
@@ -52,13 +51,14 @@ impl Query {
     }
 }
 
-/// A method that takes part, under a short name.
+/// A method that takes part in a contest, under a short name.
 pub struct Contender {
-    /// What it is called in tables; [`Method::name`] adds its parameters.
+    /// Name in tables; [`Method::name`] adds the parameters.
     pub label: String,
     /// The method.
     pub method: Box<dyn Method>,
-    /// What its answers are compared with, if it is asked something else than the others, whose time is to be seen beside its own.
+    /// A truth of its own, for a method that is asked another query than the others. Its time is
+    /// shown beside theirs.
     pub truth: Option<Box<dyn Method>>,
 }
 
@@ -72,7 +72,7 @@ impl Contender {
         }
     }
 
-    /// With a truth of its own.
+    /// Compares the method with a truth of its own.
     #[must_use]
     pub fn compared_with(mut self, truth: impl Method + 'static) -> Self {
         self.truth = Some(Box::new(truth));
@@ -80,37 +80,39 @@ impl Contender {
     }
 }
 
-/// Methods on one motion.
+/// Methods on one motion, with one query.
 pub struct Contest {
-    /// What it is called.
+    /// Name of the contest.
     pub name: String,
-    /// What is played.
+    /// Motion that is played.
     pub motion: Motion,
-    /// What is asked.
+    /// Query of every step.
     pub query: Query,
-    /// The method whose answers are taken for true: simple, and not one of ours.
+    /// Method whose answers are taken for true: simple, and not ours.
     pub truth: Box<dyn Method>,
-    /// The methods; ratios are to the first.
+    /// Methods that take part. Ratios refer to the first.
     pub methods: Vec<Contender>,
-    /// Parts of the steps.
+    /// Ranges of steps over which figures are combined.
     pub windows: Vec<Window>,
-    /// Whether methods find nothing in cache: every step, memory is read until nothing of the last one can be there.
+    /// Whether caches are cleared before every step, by reading memory until nothing of the last
+    /// step can be there.
     pub cold: bool,
 }
 
-/// Bytes that are read before a step that is to begin cold: more than the caches of today's processors hold.
+/// Bytes read to clear the caches: more than the caches of today's processors hold.
 const LARGER_THAN_CACHE: usize = 512 << 20;
 
-/// One round's times of one method: (update, query) in milliseconds at each step.
+/// Times of one method in one round: (update, query) in milliseconds at each step.
 type Round = Vec<(f64, f64)>;
 
 impl Contest {
-    /// How many steps will be played, for progress.
+    /// Number of steps to play by all methods, for progress.
     pub fn length(&self, rounds: usize) -> u64 {
         ((rounds + 1) * self.methods.len() * self.motion.steps.len()) as u64
     }
 
-    /// Compares the answers, then plays `rounds` rounds. `progress` is told of every step played.
+    /// Compares the answers, then plays `rounds` timed rounds. Calls `progress` after every step
+    /// with the number of steps played.
     pub fn play(mut self, rounds: usize, progress: &mut dyn FnMut(u64)) -> ContestRecord {
         // A window without steps (the small forms have few) has no figures.
         self.windows.retain(|window| {
@@ -203,7 +205,7 @@ impl Contest {
         self.record(&build_ms, wrong, counters, pairs, &played)
     }
 
-    /// Has every method build its own; in milliseconds for each.
+    /// Builds every method; returns the milliseconds of each.
     fn build(&mut self) -> Vec<f64> {
         let build = |method: &mut Box<dyn Method>, motion: &Motion| {
             let start = Instant::now();
@@ -220,7 +222,7 @@ impl Contest {
             .map(|entry| build(&mut entry.method, &self.motion))
             .collect();
 
-        // What building counted is not work of a step.
+        // Counts of building are not work of a step.
         for entry in &mut self.methods {
             entry.method.take_counters();
         }
@@ -373,7 +375,7 @@ fn write(shapes: &mut [Placed], frame: &[Placed]) {
     }
 }
 
-/// Lets happen to meshes what happens before a step.
+/// Applies the changes of meshes before a step.
 fn apply(meshes: &mut [ChangingMesh], events: &[Event]) {
     for event in events {
         match event {
@@ -390,12 +392,13 @@ fn views(shapes: &[Placed]) -> Vec<Shape<'_>> {
     shapes.iter().map(Placed::shape).collect()
 }
 
-/// In whole nanoseconds, as the clock ticks: records stay readable.
+/// Milliseconds between two instants, in whole nanoseconds as the clock ticks: records stay
+/// readable.
 fn milliseconds(from: Instant, to: Instant) -> f64 {
     (to - from).as_nanos() as f64 / 1e6
 }
 
-/// `Err` counts what is missing from an answer and what is too much.
+/// Compares an answer with the truth. `Err` counts missing pairs and extra pairs.
 fn compare(answer: &[Pair], truth: &[Pair]) -> Result<(), (usize, usize)> {
     if answer == truth {
         return Ok(());
@@ -403,11 +406,11 @@ fn compare(answer: &[Pair], truth: &[Pair]) -> Result<(), (usize, usize)> {
     let sets = [truth, answer].map(|pairs| pairs.iter().collect::<BTreeSet<_>>());
     let missing = sets[0].difference(&sets[1]).count();
     let extra = sets[1].difference(&sets[0]).count();
-    // Neither: the same pairs, but not sorted or some of them twice.
+    // No difference: equal pairs, but unsorted or with duplicates.
     Err((missing, extra.max(usize::from(missing == 0))))
 }
 
-/// Distances that were computed in `f32` are taken for right within a thousandth.
+/// Compares distances. One that was computed in `f32` is right within a thousandth.
 fn is_as_far(found: Option<f64>, truth: Option<f64>) -> Result<(), (usize, usize)> {
     match (found, truth) {
         (Some(found), Some(truth)) if (found - truth).abs() <= truth * 1e-3 => Ok(()),

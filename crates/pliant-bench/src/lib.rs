@@ -1,17 +1,19 @@
-//! Methods of collision detection for deforming bodies, side by side: ours in every configuration, the older algorithms that
-//! the paper compares with, and what a Rust user would take today. Same work, same triangle decision, equal pair lists, one
-//! run.
+//! Benchmark of collision detection methods for deforming bodies.
 //!
-//! ```text
-//! motion       bodies and their shapes at some steps: what every method is given
-//! method       the trait: build, step, ask
-//! methods      one file or folder a method
-//! decision     triangle against triangle, the same for all: frozen, so that later gains can be measured against it
-//! contest      methods play a motion, turn by turn; answers are compared, then times
-//! experiments  the paper's, and ours: which motion, which methods, what is claimed
-//! soak         not a contest: a world of ours that lives long, compared with worlds built fresh
-//! time         how long, as people read it
-//! ```
+//! Compares ours in every configuration, the older algorithms that the paper compares with, and
+//! Rust libraries of today. All do the same work in one run, with the same triangle decision and
+//! equal lists of pairs.
+//!
+//! | module | content |
+//! |---|---|
+//! | [`motion`] | bodies and their shapes at some steps: the input of every method |
+//! | [`method`] | the trait of a method: build, step, ask |
+//! | [`methods`] | the methods, one file or folder each |
+//! | [`decision`] | triangle against triangle, the same for all: a frozen yardstick |
+//! | [`contest`] | methods play a motion in turns; answers are compared, then times |
+//! | [`experiments`] | the paper's and ours: which motion, which methods, which claims |
+//! | [`soak`] | no contest: one long-lived world, compared with worlds built fresh |
+//! | [`time`] | durations as text for people |
 
 pub mod contest;
 pub mod decision;

@@ -1,15 +1,17 @@
-//! Where and with what: one line under every figure.
+//! Processor, system and versions: one line under every figure.
 
 use crate::record::Machine;
 
-/// Libraries whose version matters to the figures. The manifest asks for exactly these, and a test compares them with the lock file.
+/// Libraries whose versions matter to the figures.
+///
+/// The manifest asks for exactly these, and a test compares them with the lock file.
 const LIBRARIES: [(&str, &str); 3] = [
     ("pliant", env!("CARGO_PKG_VERSION")),
     ("parry3d", "0.31.1"),
     ("obvhs", "0.4.0"),
 ];
 
-/// This machine and this build.
+/// Description of this machine and this build.
 pub fn this_machine() -> Machine {
     let mut system = sysinfo::System::new();
     system.refresh_cpu_all();

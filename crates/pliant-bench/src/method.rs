@@ -1,4 +1,4 @@
-//! What every method can do, and how it is asked.
+//! The interface of every method that takes part in a contest.
 
 use crate::motion::{BodyMesh, Shape};
 use pliant_scenes::{ChangingMesh, Event};
@@ -6,12 +6,12 @@ use pliant_scenes::{ChangingMesh, Event};
 /// Two intersecting triangles: body, triangle, body, triangle, the smaller (body, triangle) first.
 pub type Pair = [u32; 4];
 
-/// What a method did since it was built, or since the counters were last taken: its own account of its work.
+/// Counters of a method's work, since it was built or since they were last taken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Counters {
     /// Boxes (cells, buckets) made or made anew.
     pub boxes: u64,
-    /// Pairs of boxes compared, of any kind but of whole bodies.
+    /// Pairs of boxes compared, of any kind except boxes of whole bodies.
     pub box_tests: u64,
     /// Pairs of triangles decided.
     pub decisions: u64,
@@ -19,18 +19,23 @@ pub struct Counters {
 
 /// A method of collision detection: one world of bodies that change their shape.
 ///
-/// Bodies and triangles are numbered as given. Triangles intersect as closed sets; within a body, triangles that share a
-/// vertex are left out. Lists are sorted and without duplicates, and equal those of every other method.
+/// Bodies and triangles are numbered as given. Triangles intersect as closed sets. Within a body,
+/// triangles that share a vertex are left out. Lists are sorted, without duplicates, and equal for
+/// all methods.
 pub trait Method {
-    /// The name and every parameter, as it stands in tables: `van den Bergen (local frame, binary)`.
+    /// Name with every parameter, as in tables: `van den Bergen (local frame, binary)`.
     fn name(&self) -> String;
 
-    /// Takes bodies over, in their first shape. Called before everything else, and again before every round where meshes change: then the
-    /// method has nothing any more of what it had. Not part of any time.
+    /// Builds all data structures for bodies in their first shape. Not timed.
+    ///
+    /// Called before everything else, and again before every round where meshes change. The method
+    /// then keeps nothing from before.
     fn build(&mut self, bodies: &[BodyMesh<'_>]);
 
-    /// What happens to meshes before a step, the shapes of that step, and what the meshes are then. Part of the time of the step. A method
-    /// that has no such mode builds anew; it is never given meshes with empty numbers.
+    /// Applies the changes of meshes before a step, and is timed as part of the step.
+    ///
+    /// `shapes` are the shapes of that step, `meshes` the meshes after the change. The default
+    /// builds anew, for methods that cannot edit; they are never given meshes with empty numbers.
     fn change(&mut self, events: &[Event], shapes: &[Shape<'_>], meshes: &[ChangingMesh]) {
         let _ = events;
         let bodies: Vec<_> = meshes
@@ -44,35 +49,38 @@ pub trait Method {
         self.build(&bodies);
     }
 
-    /// What a method does between a step and its query that is no part of any time.
+    /// Work between a step and its query that is not timed.
     fn untimed(&mut self) {}
 
-    /// Takes over the shapes of all bodies at the next step, and does whatever has to be done once a step.
+    /// Takes the shapes of all bodies at the next step, and does the work that is due once a step.
     fn step(&mut self, shapes: &[Shape<'_>]);
 
-    /// All pairs of triangles of different bodies that intersect, sorted.
+    /// All pairs of intersecting triangles of different bodies, sorted.
     fn all_pairs(&mut self) -> &[Pair];
 
-    /// Some pair of triangles of different bodies that intersect.
+    /// Any pair of intersecting triangles of different bodies.
     fn first_pair(&mut self) -> Option<Pair>;
 
-    /// All pairs of each body with itself, sorted; `None` for a method that has no such mode.
+    /// All pairs of each body with itself, sorted. `None` for a method without this query.
     fn self_pairs(&mut self) -> Option<&[Pair]> {
         None
     }
 
-    /// Vertices near triangles, then edges near edges, all bodies and each with itself: rows as the library's, either kind sorted.
-    /// `None` for a method that has no such mode; how near is near, and whether of boxes, of the elements themselves or of those that meet on
-    /// their way, it was told when it was made.
+    /// Vertices near triangles, then edges near edges, of all bodies and of each with itself.
+    ///
+    /// Rows are the library's, each kind sorted. `None` for a method without this query. The method
+    /// was made with the distance, and with what it applies to: boxes of elements, the elements, or
+    /// elements that meet during a motion.
     fn candidates(&mut self) -> Option<&[Pair]> {
         None
     }
 
-    /// How far the surfaces of the first two bodies are apart, which do not intersect. `None` for a method that has no such mode.
+    /// Distance of the surfaces of the first two bodies, which do not intersect. `None` for a
+    /// method without this query.
     fn distance(&mut self) -> Option<f64> {
         None
     }
 
-    /// The work since the last call; the counters begin at zero again.
+    /// Counters since the last call; they begin at zero again.
     fn take_counters(&mut self) -> Counters;
 }

@@ -1,57 +1,57 @@
-//! What every method is given: bodies, and their shapes at some steps of a scene.
+//! Motions: bodies and their shapes at some steps of a scene, the input of every method.
 
 use pliant_scenes::{ChangingMesh, ChangingScene, Event, Scene};
 
-/// A body to be built: triangles over vertices, and the shape it begins with.
+/// A body to build: triangles over vertices, and a first shape.
 #[derive(Clone, Copy, Debug)]
 pub struct BodyMesh<'a> {
-    /// Corners as vertex numbers.
+    /// Corners of each triangle, as vertex numbers.
     pub triangles: &'a [[u32; 3]],
-    /// The first shape.
+    /// First shape.
     pub shape: Shape<'a>,
 }
 
-/// A body at one step.
+/// Shape of a body at one step.
 #[derive(Clone, Copy, Debug)]
 pub struct Shape<'a> {
-    /// World positions of its vertices: what is true, whatever a method computes with.
+    /// World positions of the vertices. Truth is decided on these, whatever a method computes with.
     pub world: &'a [[f32; 3]],
-    /// The same shape in a frame of its own, for methods that work there.
+    /// The shape in a local frame, for methods that work there.
     pub rigid: Option<Rigid<'a>>,
-    /// Where its vertices are going during the step, if it is asked what is near on the way.
+    /// World positions of the vertices at the end of the step, for queries along the motion.
     pub end: Option<&'a [[f32; 3]]>,
 }
 
-/// A shape in a local frame and where that frame is.
+/// A shape in a local frame, and the place of that frame.
 ///
-/// There is one point in the local frame that both positions of a vertex come from: `local` is it, and `world` the place of
-/// it, each rounded once to f32. So placing a local position gives the world position but for two roundings; methods that
-/// compute in the local frame rely on that.
+/// Both positions of a vertex come from one real point in the local frame. `local` is that point,
+/// `world` its place, each rounded once to f32. So placing a local position gives the world
+/// position except for two roundings. Methods that compute in the local frame rely on that.
 #[derive(Clone, Copy, Debug)]
 pub struct Rigid<'a> {
-    /// From the local frame to the world.
+    /// Map from the local frame to the world.
     pub pose: Pose,
     /// Local positions of the vertices.
     pub local: &'a [[f32; 3]],
 }
 
-/// A rotation, then a translation.
+/// A rigid map: a rotation, then a translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// Rows of the rotation matrix, orthonormal but for rounding.
+    /// Rows of the rotation matrix, orthonormal except for rounding.
     pub rotation: [[f64; 3]; 3],
-    /// Where the local origin is.
+    /// World position of the local origin.
     pub translation: [f64; 3],
 }
 
 impl Pose {
-    /// The local frame is the world.
+    /// The identity: the local frame is the world.
     pub const IDENTITY: Self = Self {
         rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         translation: [0.0; 3],
     };
 
-    /// A local point in the world.
+    /// Maps a local point to the world.
     pub fn place(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|axis| {
             let [a, b, c] = self.rotation[axis];
@@ -69,28 +69,28 @@ impl From<pliant_scenes::Pose> for Pose {
     }
 }
 
-/// A body of a motion.
+/// A body of a motion, with its first shape.
 #[derive(Clone, Debug)]
 pub struct MotionBody {
-    /// Corners as vertex numbers.
+    /// Corners of each triangle, as vertex numbers.
     pub triangles: Vec<[u32; 3]>,
-    /// The shape trees are built on, in the world: step 1, whatever steps are played.
+    /// The shape that trees are built on: step 1 in the world, whichever steps are played.
     pub first: Placed,
 }
 
 /// A shape that owns its positions.
 #[derive(Clone, Debug, Default)]
 pub struct Placed {
-    /// World positions.
+    /// World positions of the vertices.
     pub world: Vec<[f32; 3]>,
     /// Pose and local positions, where the scene has them.
     pub rigid: Option<(Pose, Vec<[f32; 3]>)>,
-    /// Positions at the end of the step's motion, if it has one.
+    /// World positions at the end of the step's motion, if it has one.
     pub end: Option<Vec<[f32; 3]>>,
 }
 
 impl Placed {
-    /// As methods are given it.
+    /// The shape as a view, as methods take it.
     pub fn shape(&self) -> Shape<'_> {
         let rigid = self
             .rigid
@@ -103,7 +103,7 @@ impl Placed {
         }
     }
 
-    /// Makes this a copy of another, in the memory it has.
+    /// Copies another shape into the memory of this one.
     pub fn copy_from(&mut self, other: &Self) {
         self.world.clone_from(&other.world);
         self.end.clone_from(&other.end);
@@ -120,20 +120,20 @@ impl Placed {
 /// Bodies and their shapes at some steps, all in memory.
 #[derive(Clone, Debug)]
 pub struct Motion {
-    /// What it is called in tables.
+    /// Name in tables.
     pub name: String,
-    /// The bodies.
+    /// Bodies of the motion.
     pub bodies: Vec<MotionBody>,
-    /// The numbers of the steps.
+    /// Numbers of the steps.
     pub steps: Vec<u32>,
-    /// For each step, the shape of each body.
+    /// Shape of each body, for each step.
     pub frames: Vec<Vec<Placed>>,
-    /// For each step, what happens to meshes before; empty if nothing ever does.
+    /// Changes of meshes before each step; empty if there are none at all.
     pub events: Vec<Vec<Event>>,
 }
 
 impl Motion {
-    /// Some steps of a scene.
+    /// Motion of a scene, at the given steps.
     pub fn of_scene(scene: &Scene, steps: impl IntoIterator<Item = u32>) -> Self {
         let place = |body: usize, step: u32| {
             let mut world = Vec::new();
@@ -169,7 +169,7 @@ impl Motion {
         }
     }
 
-    /// The steps of a scene whose meshes change, up to one.
+    /// Motion of a scene whose meshes change, from the first step to `last`.
     pub fn of_changing(scene: &ChangingScene, last: u32) -> Self {
         let placed = |world| Placed {
             world,
@@ -204,19 +204,20 @@ impl Motion {
         }
     }
 
-    /// What happens to meshes before a step, by its place.
+    /// Changes of meshes before a step, by the step's place in the list.
     pub fn events(&self, place: usize) -> &[Event] {
         self.events.get(place).map_or(&[], Vec::as_slice)
     }
 
-    /// The meshes before the first step, as events change them; none if nothing ever happens.
+    /// Meshes before the first step, to be changed by events; none if there are no events.
     pub fn changing_meshes(&self) -> Vec<ChangingMesh> {
         let bodies = self.bodies.iter().filter(|_| !self.events.is_empty());
         let mesh = |body: &MotionBody| ChangingMesh::new(&body.triangles, body.first.world.len());
         bodies.map(mesh).collect()
     }
 
-    /// The same motion, with bodies at every step on a part of their way to where the scene has them at the next.
+    /// Gives every body at every step a motion: the fraction `part` of the way to the scene's next
+    /// step.
     #[must_use]
     pub fn on_the_way(mut self, scene: &Scene, part: f32) -> Self {
         for (&step, frame) in self.steps.iter().zip(&mut self.frames) {
@@ -232,7 +233,7 @@ impl Motion {
         self
     }
 
-    /// The mean length of the sides of all triangles in their first shape.
+    /// Mean side length of all triangles in their first shape.
     pub fn mean_side(&self) -> f64 {
         let (mut sum, mut count) = (0.0, 0.0);
         for body in &self.bodies {
@@ -248,7 +249,8 @@ impl Motion {
         sum / count
     }
 
-    /// The same motion with the vertices of every body numbered anew: vertex i of body b is what was vertex `orders[b][i]`.
+    /// Renumbers the vertices of every body: the new vertex `i` of body `b` is the old
+    /// `orders[b][i]`.
     #[must_use]
     pub fn renumbered(mut self, orders: &[Vec<u32>]) -> Self {
         let renumber = |placed: &mut Placed, order: &[u32]| {
@@ -278,7 +280,7 @@ impl Motion {
         self
     }
 
-    /// The bodies as [`Method::build`](crate::method::Method::build) is given them.
+    /// Bodies in the form that [`Method::build`](crate::method::Method::build) takes.
     pub fn meshes(&self) -> Vec<BodyMesh<'_>> {
         self.bodies
             .iter()

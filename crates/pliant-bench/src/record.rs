@@ -1,34 +1,35 @@
-//! What an experiment leaves behind, as it is written to JSON. `benchmarks/record.schema.json` describes it; a test holds both
-//! against each other.
+//! Records of experiments, as they are written to JSON.
+//!
+//! `benchmarks/record.schema.json` describes the format; a test compares the two.
 
 use crate::method::Counters;
 use serde::{Deserialize, Serialize};
 
-/// A whole run of one or several experiments.
+/// A run of one or several experiments.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Record {
-    /// Of this format: 1.
+    /// Version of the format: 1.
     pub format: u32,
-    /// Where and with what.
+    /// Machine and build of the run.
     pub machine: Machine,
-    /// In the order in which they were run.
+    /// Experiments in the order in which they were run.
     pub experiments: Vec<ExperimentRecord>,
 }
 
-/// Where and with what it was measured.
+/// Machine and build of measurements.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Machine {
-    /// The processor, as it calls itself.
+    /// Name of the processor, as it reports it.
     pub processor: String,
-    /// Its cores, as the system sees them.
+    /// Number of cores, as the system counts them.
     pub cores: usize,
-    /// Operating system.
+    /// Name and version of the operating system.
     pub system: String,
-    /// The profile it was compiled with: `release` or `debug`.
+    /// Build profile: `release` or `debug`.
     pub profile: String,
-    /// Libraries and their versions, the compiler's among them.
+    /// Versions of libraries and of the compiler, by name.
     pub versions: std::collections::BTreeMap<String, String>,
 }
 
@@ -36,15 +37,16 @@ pub struct Machine {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExperimentRecord {
-    /// As on the command line.
+    /// Name on the command line.
     pub experiment: String,
-    /// In small form: for tests, not for conclusions.
+    /// Whether it has the small form, which is for tests, not for conclusions.
     pub small: bool,
-    /// How often every method played every step, not counting the round that compares answers.
+    /// Number of timed plays of every step by every method. The round that compares answers is not
+    /// counted.
     pub rounds: usize,
-    /// What was played.
+    /// Contests of the experiment.
     pub contests: Vec<ContestRecord>,
-    /// What follows.
+    /// Claims, tested on the contests.
     pub claims: Vec<Claim>,
 }
 
@@ -52,39 +54,39 @@ pub struct ExperimentRecord {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ContestRecord {
-    /// What is asked of which motion.
+    /// Name of the contest: query and motion.
     pub name: String,
-    /// The motion.
+    /// Name of the motion.
     pub motion: String,
-    /// Bodies.
+    /// Number of bodies.
     pub bodies: usize,
-    /// Triangles of a body.
+    /// Number of triangles of a body.
     pub triangles: usize,
-    /// `all`, `first`, `self`, `near`, `when` or `distance`.
+    /// Query: `all`, `first`, `self`, `near`, `when` or `distance`.
     pub query: String,
-    /// The numbers of the steps played.
+    /// Numbers of the steps played.
     pub steps: Vec<u32>,
-    /// Intersecting pairs at each step (of the truth, also where only the first is asked for).
+    /// Intersecting pairs at each step, as the truth has them, also for a query for the first pair.
     pub pairs: Vec<usize>,
-    /// The method that `pairs` are from.
+    /// Method that `pairs` are from.
     pub truth: String,
-    /// The method that ratios are to.
+    /// Method that ratios refer to.
     pub reference: String,
-    /// Parts of the steps for which figures are drawn together.
+    /// Ranges of steps over which figures are combined.
     pub windows: Vec<Window>,
-    /// The methods.
+    /// Records of the methods.
     pub methods: Vec<MethodRecord>,
 }
 
-/// Some steps of a contest.
+/// A range of steps of a contest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Window {
-    /// What they are called.
+    /// Name of the range.
     pub name: String,
-    /// The first step.
+    /// First step.
     pub first: u32,
-    /// The last step.
+    /// Last step, inclusive.
     pub last: u32,
 }
 
@@ -92,91 +94,94 @@ pub struct Window {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MethodRecord {
-    /// A short name.
+    /// Short name, as in tables.
     pub name: String,
-    /// The method's own name, with every parameter.
+    /// Own name of the method, with every parameter.
     pub parameters: String,
-    /// If its pairs are not the truth's: where first, and how often. It is then not timed, and the lists below are empty.
+    /// Errors, if its pairs are not the truth's. The method is then not timed, and the lists below
+    /// are empty.
     pub wrong: Option<Wrong>,
-    /// Building, once.
+    /// Time to build, once, in milliseconds.
     pub build_ms: f64,
-    /// Taking over the shapes, at each step: the median of all rounds.
+    /// Time to take the shapes at each step, in milliseconds: the median of all rounds.
     pub update_ms: Vec<f64>,
-    /// The query, at each step: the median of all rounds.
+    /// Time of the query at each step, in milliseconds: the median of all rounds.
     pub query_ms: Vec<f64>,
     /// Figures for each window, in order.
     pub windows: Vec<WindowFigures>,
-    /// The method's account of its work in one round, at each step.
+    /// Counters at each step, from one round.
     pub counters: Vec<Counters>,
 }
 
-/// Update and query together, over the steps of a window.
+/// Times of update and query together, over the steps of a window.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WindowFigures {
-    /// The median of the steps' medians.
+    /// Median of the steps' medians, in milliseconds.
     pub median_ms: f64,
-    /// The mean of the steps' medians.
+    /// Mean of the steps' medians, in milliseconds.
     pub mean_ms: f64,
-    /// The slowest step's median.
+    /// Largest of the steps' medians, in milliseconds.
     pub worst_ms: f64,
-    /// The reference's time over this method's: how many times faster this one is. For each round the ratio of the sums over
-    /// the window; here the median of the rounds. Missing if the reference is wrong.
+    /// Time of the reference over the time of this method: how many times faster this one is.
+    ///
+    /// Each round has the ratio of the sums over the window; this is the median of the rounds.
+    /// `None` if the reference is wrong.
     pub speedup: Option<Spread>,
 }
 
-/// A median and what it is the median of.
+/// Median, minimum and maximum of some values.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spread {
-    /// The median.
+    /// Median.
     pub median: f64,
-    /// The smallest.
+    /// Minimum.
     pub least: f64,
-    /// The largest.
+    /// Maximum.
     pub most: f64,
 }
 
-/// Where a method's answers are not the truth.
+/// Difference of a method's answers from the truth.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wrong {
-    /// The first such step.
+    /// First step with a difference.
     pub step: u32,
-    /// Pairs that are true and missing, over all steps.
+    /// True pairs that are missing, over all steps.
     pub missing: usize,
-    /// Pairs that are not true, over all steps.
+    /// Untrue pairs, over all steps.
     pub extra: usize,
 }
 
-/// A statement, and what we found.
+/// A claim, and our finding.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Claim {
-    /// What the paper, or we, say.
+    /// Statement of the paper, or of ours.
     pub claim: String,
-    /// How it stands.
+    /// Finding.
     pub verdict: Verdict,
-    /// Our figure.
+    /// Our figure, in words.
     pub figure: String,
 }
 
-/// How a claim stands.
+/// Finding about a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// As it was said.
+    /// True as stated.
     Holds,
-    /// In the same direction, but less.
+    /// True in direction, but by less.
     HoldsWeaker,
-    /// Not on this machine, with this code.
+    /// False on this machine, with this code.
     DoesNotHoldToday,
     /// A figure without a claim.
     Measured,
 }
 
 impl Verdict {
-    /// Of a claim that holds or does not.
+    /// Verdict on a claim that either holds or does not.
     pub(crate) fn of(holds: bool) -> Self {
         if holds {
             Self::Holds
@@ -187,7 +192,7 @@ impl Verdict {
 }
 
 impl Spread {
-    /// Of at least one value.
+    /// Median, minimum and maximum of values; NaN without values.
     pub fn of(mut values: Vec<f64>) -> Self {
         values.sort_by(f64::total_cmp);
         let (least, most) = (
@@ -202,7 +207,7 @@ impl Spread {
     }
 }
 
-/// The median; NaN of none.
+/// Median of values; NaN without values.
 pub fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -218,18 +223,19 @@ fn median_of_sorted(sorted: &[f64]) -> f64 {
 }
 
 impl ContestRecord {
-    /// A method's record by name.
+    /// Record of a method, by its short name.
     pub fn method(&self, name: &str) -> Option<&MethodRecord> {
         self.methods.iter().find(|method| method.name == name)
     }
 
-    /// A figure of a method in a window, both by name.
+    /// Figures of a method in a window, both by name.
     pub fn window(&self, method: &str, window: &str) -> Option<&WindowFigures> {
         let place = self.windows.iter().position(|known| known.name == window)?;
         self.method(method)?.windows.get(place)
     }
 
-    /// How many times faster `fast` is than `slow` over a window, by mean times; NaN if one is missing.
+    /// Factor by which `fast` is faster than `slow` over a window, by mean times; NaN if one is
+    /// missing.
     pub fn times_faster(&self, fast: &str, slow: &str, window: &str) -> f64 {
         match (self.window(fast, window), self.window(slow, window)) {
             (Some(fast), Some(slow)) => slow.mean_ms / fast.mean_ms,
@@ -237,7 +243,7 @@ impl ContestRecord {
         }
     }
 
-    /// The fastest of some peers over a window, and how many times faster `ours` is; none if all
+    /// Fastest of some peers over a window, and the factor by which `ours` is faster. `None` if all
     /// are missing.
     #[cfg(feature = "peers")]
     pub(crate) fn fastest<'a>(

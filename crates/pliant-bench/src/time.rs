@@ -1,10 +1,10 @@
-//! Spans of time as people read them: three digits and the unit that needs no zeros in front.
+//! Durations as text: three digits, in the largest unit that needs no leading zero.
 
-/// 0.0213 milliseconds are `21.3 µs`.
+/// Formats milliseconds: 0.0213 is `21.3 µs`.
 pub fn duration(milliseconds: f64) -> String {
     let (mut value, mut units) = (milliseconds * 1e6, ["µs", "ms", "s"].into_iter());
     let mut unit = "ns";
-    // What rounds to 1000 is one of the next unit.
+    // A value that rounds to 1000 belongs to the next unit.
     while value >= 999.5 {
         let Some(larger) = units.next() else { break };
         value /= 1e3;

@@ -1,5 +1,7 @@
-//! How much longer a check takes that finds places: the median of many rounds, each with and
-//! without, so that what else the machine does falls on both.
+//! Measures the time that finding places adds to a check.
+//!
+//! Prints the median of many rounds, each with and without places. So other load of the machine
+//! affects both.
 //!
 //! `cargo run --release -p pliant-check --example places_cost -- BODY...`, each body by itself.
 
@@ -9,7 +11,9 @@ use std::time::{Duration, Instant};
 
 const ROUNDS: usize = 41;
 
-/// All frames of a body with itself: pairs, places, and the time that the checks took, reading included.
+/// Checks all frames of a body with itself: number of pairs, number of places, and time.
+///
+/// The time includes reading.
 fn check(body: &str, places: bool) -> Result<(usize, usize, Duration), pliant_check::Error> {
     let settings = Settings {
         places,
@@ -29,7 +33,7 @@ fn main() -> Result<(), pliant_check::Error> {
         let (mut ratios, mut times, mut counts) = (Vec::new(), Vec::new(), (0, 0));
         for round in 0..ROUNDS {
             let mut took = [Duration::ZERO; 2];
-            // Neither is always the first.
+            // Alternate which one is first.
             for with in [round % 2 == 0, round % 2 == 1] {
                 let (pairs, places, time) = check(&body, with)?;
                 took[usize::from(with)] = time;

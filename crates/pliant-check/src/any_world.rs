@@ -1,22 +1,24 @@
-//! A world of either precision: the one place where positions of files, or of Python, which have one precision or the other, meet
-//! worlds, whose precision is a type.
+//! A world of single or double precision, chosen at run time.
 //!
-//! 32-bit positions in a 64-bit world are widened, which changes none. 64-bit positions in a 32-bit world would have to be rounded,
-//! and are refused.
+//! The precision of a [`World`] is a type. Files and Python's arrays have theirs as a value. This
+//! is the one place where the two meet. 32-bit positions in a 64-bit world are widened, which
+//! changes none. 64-bit positions in a 32-bit world are refused, since they would be rounded.
 
 use pliant::{BodyId, Error, Options, World};
 use pliant_io::{Positions, Precision};
 
-/// A world of one precision or the other.
+/// A world of either precision.
 #[derive(Clone, Debug)]
 pub enum AnyWorld {
-    /// Of single precision.
+    /// World of single precision.
     F32(World<f32>),
-    /// Of double precision.
+    /// World of double precision.
     F64(World<f64>),
 }
 
-/// Does the same with a world of either precision: `with_world!(any_world, world => world.bodies().len())`.
+/// Evaluates an expression with the [`World`] of an [`AnyWorld`].
+///
+/// Compiles it for either precision: `with_world!(any_world, world => world.bodies().len())`.
 #[macro_export]
 macro_rules! with_world {
     ($any_world:expr, $world:ident => $work:expr) => {
@@ -30,9 +32,9 @@ macro_rules! with_world {
 /// Why positions were not taken.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NotTaken {
-    /// The library refused them.
+    /// Error of the library.
     Refused(Error),
-    /// They are of double precision, and the world is of single precision.
+    /// Positions of double precision in a world of single precision.
     WouldBeRounded,
 }
 
@@ -43,7 +45,7 @@ impl From<Error> for NotTaken {
 }
 
 impl AnyWorld {
-    /// An empty world.
+    /// Creates an empty world.
     pub fn new(precision: Precision, options: Options) -> Self {
         match precision {
             Precision::F32 => Self::F32(World::with_options(options)),
@@ -51,7 +53,7 @@ impl AnyWorld {
         }
     }
 
-    /// Its precision.
+    /// Precision of the world.
     pub fn precision(&self) -> Precision {
         match self {
             Self::F32(_) => Precision::F32,
@@ -59,11 +61,11 @@ impl AnyWorld {
         }
     }
 
-    /// [`World::add`]. `widened` is scratch.
+    /// Calls [`World::add`]. `widened` is scratch memory.
     ///
     /// # Errors
     ///
-    /// Those of the library, or that positions would be rounded.
+    /// The library refuses, or positions would be rounded.
     pub fn add(
         &mut self,
         triangles: &[[u32; 3]],
@@ -76,11 +78,11 @@ impl AnyWorld {
         })
     }
 
-    /// [`World::set_mesh`]. `widened` is scratch.
+    /// Calls [`World::set_mesh`]. `widened` is scratch memory.
     ///
     /// # Errors
     ///
-    /// Those of the library, or that positions would be rounded.
+    /// The library refuses, or positions would be rounded.
     pub fn set_mesh(
         &mut self,
         body: BodyId,
@@ -95,11 +97,11 @@ impl AnyWorld {
         Ok(())
     }
 
-    /// [`World::set_positions`]. `widened` is scratch.
+    /// Calls [`World::set_positions`]. `widened` is scratch memory.
     ///
     /// # Errors
     ///
-    /// Those of the library, or that positions would be rounded.
+    /// The library refuses, or positions would be rounded.
     pub fn set_positions(
         &mut self,
         body: BodyId,
@@ -113,11 +115,11 @@ impl AnyWorld {
         Ok(())
     }
 
-    /// [`World::set_motion`]. `widened` is scratch.
+    /// Calls [`World::set_motion`]. `widened` is scratch memory.
     ///
     /// # Errors
     ///
-    /// Those of the library, or that positions would be rounded.
+    /// The library refuses, or positions would be rounded.
     pub fn set_motion(
         &mut self,
         body: BodyId,
@@ -132,11 +134,11 @@ impl AnyWorld {
     }
 }
 
-/// Positions in single precision, if they are.
+/// Positions of single precision.
 ///
 /// # Errors
 ///
-/// They are not.
+/// [`NotTaken::WouldBeRounded`] if they are of double precision.
 pub fn single(positions: Positions<'_>) -> Result<&[[f32; 3]], NotTaken> {
     match positions {
         Positions::F32(positions) => Ok(positions),
@@ -144,7 +146,7 @@ pub fn single(positions: Positions<'_>) -> Result<&[[f32; 3]], NotTaken> {
     }
 }
 
-/// Positions in double precision, as they are or widened.
+/// Positions in double precision, widened into `widened` if necessary.
 pub fn double<'a>(positions: Positions<'a>, widened: &'a mut Vec<[f64; 3]>) -> &'a [[f64; 3]] {
     match positions {
         Positions::F64(positions) => positions,

@@ -1,7 +1,8 @@
-//! The pairs of an earlier check, as `pliant check --format json` wrote them: what a check is to leave out.
+//! Reader of a baseline file: pairs of an earlier check, as `pliant check --format json` wrote
+//! them.
 //!
-//! A pair of any frame of the file is left out of all. Bodies are those of the same name and as many triangles, whatever their numbers
-//! were; a file that says less than all pairs, or speaks of other bodies, is refused.
+//! A pair of any frame of the file is left out of all frames. Bodies are matched by name and number
+//! of triangles, not by their numbers. A file that lacks pairs, or names other bodies, is refused.
 
 use crate::bodies::Bodies;
 use crate::error::Error;
@@ -13,7 +14,7 @@ use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
-/// What is read of the file.
+/// The parts of the file that are read.
 #[derive(Deserialize)]
 struct Written {
     format: u64,
@@ -30,16 +31,17 @@ struct WrittenBody {
 
 #[derive(Deserialize)]
 struct WrittenFrame {
-    /// None on the way between frames whose meshes differ.
+    /// `None` between frames whose meshes differ.
     count: Option<usize>,
     complete: Option<bool>,
     pairs: Option<Vec<Row>>,
     changed: Option<serde::de::IgnoredAny>,
-    /// Of what meets on the way to another frame.
+    /// Present in intervals between frames only.
     until: Option<serde::de::IgnoredAny>,
 }
 
-/// Reads the pairs, sorted, as the bodies are numbered now. The file may have so many bytes.
+/// Reads the pairs, sorted, with the bodies' current numbers. `most` is the limit of the file's
+/// size, in bytes.
 pub(crate) fn read(
     path: &Path,
     sources: &[Source],
@@ -88,7 +90,7 @@ pub(crate) fn read(
     Ok(rows)
 }
 
-/// The file as it is, if it has all pairs.
+/// Parses the file, and refuses it if it lacks pairs.
 fn parse(path: &Path, most: u64) -> Result<Written, String> {
     let is_file = path
         .metadata()
@@ -98,7 +100,7 @@ fn parse(path: &Path, most: u64) -> Result<Written, String> {
         return Err("it is no file".into());
     }
     let file = File::open(path).map_err(|error| error.to_string())?;
-    // Whatever it says its length is: it may grow, too.
+    // Reading is bounded, not the length in the metadata: the file may grow.
     let mut text = Vec::new();
     let read = BufReader::new(file)
         .take(most.saturating_add(1))
@@ -110,7 +112,7 @@ fn parse(path: &Path, most: u64) -> Result<Written, String> {
     let mut written: Written = serde_json::from_slice(&text)
         .map_err(|error| format!("it is not what a check writes as JSON ({error})"))?;
     drop(text);
-    // What meets on the way between frames is no pair of triangles.
+    // Impacts between frames are not pairs of triangles.
     written.frames.retain(|frame| frame.until.is_none());
     let has_all = |frame: &WrittenFrame| {
         frame.complete != Some(false)

@@ -1,9 +1,10 @@
-//! What an answer calls a body: a source as a whole, a connected piece of it, or a group of it.
+//! Bodies of answers: a source as a whole, a connected piece of it, or a group of it.
 //!
-//! Pieces and groups are names for triangles, not bodies of the world: there each source stays one body, whose pairs with itself are
-//! also the pairs between its pieces. So a source in 100,000 pieces takes no more memory, and no more time, than one in one piece; and
-//! triangles that share a vertex are left out whatever bodies they are of. Triangles keep the numbers that they have in their source.
-//! Where only some groups of a source are asked for, the triangles of the others are of no body.
+//! Pieces and groups are names for triangles: in the world each source stays one body. Its pairs
+//! with itself include the pairs between its pieces. So a source of 100,000 pieces takes no more
+//! memory or time than one of one piece. Triangles keep their source's numbers, and pairs that
+//! share a vertex are left out across bodies too. If only some groups of a source are asked for,
+//! its other triangles are of no body.
 
 use crate::error::Error;
 use crate::opened::Opened;
@@ -14,40 +15,41 @@ use pliant_io::{Body as Source, Groups};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// A body of an answer.
+/// Facts about a body of an answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BodyFacts {
-    /// The name of its source, and where it is not all of that, `#` and the number of the piece, from 1, or the name of the group.
+    /// Name: the source's, and for a piece or group `#` and the piece's number, from 1, or the
+    /// group's name.
     pub name: String,
-    /// The number of its source.
+    /// Number of the source.
     pub source: usize,
-    /// How many vertices it has; of a piece or a group, those that its triangles use.
+    /// Number of vertices; of a piece or a group, the vertices of its triangles.
     pub vertices: usize,
-    /// How many triangles it has.
+    /// Number of triangles.
     pub triangles: usize,
-    /// Its lowest triangle, as numbered in the source.
+    /// Lowest triangle, as numbered in the source.
     pub first_triangle: usize,
 }
 
-/// What a source is split into.
+/// Bodies that one source is split into.
 #[derive(Debug)]
 struct Parts {
     pieces: Pieces,
-    /// None where pieces have numbers.
+    /// Names of groups; `None` for connected pieces, which have numbers.
     names: Option<Vec<String>>,
 }
 
-/// The bodies of all sources, numbered through.
+/// Bodies of all sources, numbered consecutively.
 #[derive(Debug)]
 pub(crate) struct Bodies {
-    /// Of a source that is no body as a whole, what it is split into.
+    /// Parts of each source that is not one body as a whole.
     parts: BTreeMap<usize, Parts>,
-    /// For each source the number of its first body, and at the end the number of bodies.
+    /// First body of each source, and at the end the number of bodies: a prefix sum.
     starts: Vec<u32>,
 }
 
 impl Parts {
-    /// What a source is split into; `named` are the groups of it that take part.
+    /// Splits a source; `None` if it is one body. `named` are the groups that take part.
     fn of(source: &Source, named: &[String], split: Option<Split>) -> Result<Option<Self>, Error> {
         let parts = match (split, named) {
             (None, []) => None,
@@ -59,7 +61,7 @@ impl Parts {
                 let name = format!("{}#{name}", source.name());
                 return Err(Error::PiecesOfGroup { name });
             }
-            // It has a group's triangles only; the numbers of groups are those of the file's.
+            // A source of one group has its triangles only, but groups are numbered as in the file.
             (Some(Split::Groups), []) if source.is_part() => None,
             (Some(Split::Groups), []) => {
                 let groups = source.groups()?;
@@ -98,14 +100,16 @@ impl Parts {
     }
 }
 
-/// The groups that are named, each one by itself, or all that one name stands for as one. Other triangles are of none.
+/// Restricts `groups` to the named ones. `each`: every group is a body; otherwise every name is.
+///
+/// Other triangles are of no group.
 fn some_of(
     source: &Source,
     mut groups: Groups,
     named: &[String],
     each: bool,
 ) -> Result<Groups, Error> {
-    // For each group the place of the name that it is named by.
+    // Position in `named` of the name that selects each group.
     let mut by = vec![NONE; groups.names.len()];
     for (name, place) in named.iter().zip(0..) {
         for group in groups.called(name)? {
@@ -152,7 +156,7 @@ impl Bodies {
             parts.extend(into.map(|into| (number, into)));
         }
         if split == Some(Split::Groups) && parts.is_empty() {
-            // Not where others are split, beside which it is one body.
+            // No error beside sources that are split: this source is then one body.
             let why = |source: &Source| Some((source.name().to_owned(), source.why_no_groups()?));
             if let Some((source_name, why)) = sources.iter().find_map(why) {
                 return Err(Error::NoGroups { source_name, why });
@@ -165,17 +169,17 @@ impl Bodies {
         self.starts.last().copied().unwrap_or(0)
     }
 
-    /// Whether a source is split, or not all of it a body.
+    /// Whether a source is split, or takes part only by some groups.
     pub(crate) fn is_split(&self, source: usize) -> bool {
         self.parts.contains_key(&source)
     }
 
-    /// Whether any is.
+    /// Whether any source is split.
     pub(crate) fn are_split(&self) -> bool {
         !self.parts.is_empty()
     }
 
-    /// The bodies of a source.
+    /// Numbers of the bodies of a source.
     pub(crate) fn of_source(&self, source: usize) -> Range<u32> {
         self.starts[source]..self.starts[source + 1]
     }
@@ -184,7 +188,7 @@ impl Bodies {
         self.starts.partition_point(|&start| start <= body) - 1
     }
 
-    /// The body that a triangle of a source is of; none where its group was not asked for.
+    /// Body of a triangle of a source; `None` if its group was not asked for.
     pub(crate) fn of_triangle(&self, source: u32, triangle: u32) -> Option<u32> {
         let start = self.starts[source as usize];
         let Some(Parts { pieces, .. }) = self.parts.get(&(source as usize)) else {
@@ -194,7 +198,8 @@ impl Bodies {
         (piece != NONE).then(|| start + piece)
     }
 
-    /// A pair of triangles of sources, as a pair of triangles of bodies: the smaller first. None if one is of no body.
+    /// Converts a pair of sources into a pair of bodies, the smaller first. `None` if a triangle is
+    /// of no body.
     pub(crate) fn row(&self, [source_a, a, source_b, b]: Row) -> Option<Row> {
         let one = (self.of_triangle(source_a, a)?, a);
         let other = (self.of_triangle(source_b, b)?, b);
@@ -202,8 +207,8 @@ impl Bodies {
         Some([body_a, a, body_b, b])
     }
 
-    /// The bodies of a source that are called so behind its name and a `#`: the piece of this number, or the groups that the name
-    /// stands for.
+    /// Bodies of a source by the text behind the `#`: the piece of this number, or the groups of
+    /// this name.
     pub(crate) fn called(&self, source: usize, name: &str) -> Vec<u32> {
         let Some(Parts { pieces, names }) = self.parts.get(&source) else {
             return Vec::new();

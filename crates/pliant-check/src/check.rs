@@ -1,13 +1,13 @@
-//! The loop: frames of several sources, one after another, and the pairs of each.
+//! The loop of a check: reads the sources frame by frame and finds the pairs of each frame.
 
 use crate::any_world::AnyWorld;
 use crate::baseline;
 use crate::bodies::{Bodies, BodyFacts};
-use crate::elements::Elements as Owners;
+use crate::elements::Owners;
 use crate::error::Error;
 use crate::filter::Filter;
 use crate::found::{Closeness, Found, Gap, How, MOST_COUNTED, Stop, Taker};
-use crate::interval::{Elements, Impact, ImpactTaker, Interval, WIDTH};
+use crate::interval::{ElementPair, Impact, ImpactTaker, Interval, WIDTH};
 use crate::joined::Meshes;
 use crate::lives::{Life, Lives};
 use crate::one_point;
@@ -24,34 +24,36 @@ use pliant_io::{Body as Source, OpenOptions};
 use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};
 
-/// The caller's "stop now?".
+/// The caller's stop callback.
 type Question<'q> = &'q (dyn Fn() -> bool + Sync);
 
-/// A check of sources, frame by frame: each frame is read and checked when it is asked for.
+/// A check of mesh sequences, frame by frame. Each frame is read and checked on demand.
 pub struct Check {
     sequence: Sequence,
     bodies: Bodies,
     filter: Filter,
     asked: Settings,
-    /// Who of the world is asked about, once its bodies are there.
+    /// Selection of the world's queries, once its bodies are there.
     of: Selection,
-    /// Those that are left.
+    /// Frames still to be checked.
     frames: Frames,
-    baseline: Option<Baseline>,
+    baseline: Option<KnownPairs>,
     remarks: Remarks,
     places: Places,
     lives: Lives,
-    /// The meshes of the sources in the frame found last.
+    /// Mesh numbers of the sources in the frame returned last.
     told: Vec<MeshNumber>,
-    /// Of each source whose its elements are, where it is not one body, once that is known; and of which triangles in the world.
+    /// Owners of the elements of each source, computed on demand. `None` for a source that is one
+    /// body. Computed for the triangles that the world had when `Sequence::given` was `owners_of`.
     owners: Vec<Option<Owners>>,
     owners_of: usize,
-    /// The frame found last, if it was not yet said what meets on the way from there.
+    /// Frame returned last, until its interval to the next frame was returned.
     from: Option<usize>,
     failed: bool,
 }
 
-/// A pair in terms of sources as it is in answers, if its bodies are to meet: the world knows sources only.
+/// Converts a pair of sources, which the world knows, into a pair of bodies. `None` if these bodies
+/// are not to meet.
 fn row_asked(bodies: &Bodies, filter: &Filter, itself: bool, of_sources: Row) -> Option<Row> {
     let row = bodies.row(of_sources)?;
     let [body_a, _, body_b, _] = row;
@@ -59,7 +61,7 @@ fn row_asked(bodies: &Bodies, filter: &Filter, itself: bool, of_sources: Row) ->
     is_asked.then_some(row)
 }
 
-/// A query that is interrupted if the caller wants that.
+/// Adds the caller's stop callback, if any, to a query.
 fn unless<'q, H: Copy>(stop: Option<Question<'q>>, query: Query<'q, H>) -> Query<'q, H> {
     match stop {
         Some(stop) => query.interrupt_if(stop),
@@ -67,10 +69,10 @@ fn unless<'q, H: Copy>(stop: Option<Question<'q>>, query: Query<'q, H>) -> Query
     }
 }
 
-/// So many times as large another body may be, before that is remarkable.
+/// Ratio of sizes from which on two arguments may well be in different units.
 const MOST_UNLIKE: f64 = 100.0;
 
-/// The smallest and the largest coordinates of points; the largest and the smallest there are where there is none.
+/// Bounding box of points: lower and upper corner. Without points, +∞ and −∞.
 fn around(points: impl IntoIterator<Item = [f64; 3]>) -> [[f64; 3]; 2] {
     let none = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     points.into_iter().fold(none, grown)
@@ -83,7 +85,7 @@ fn grown([lower, upper]: [[f64; 3]; 2], point: [f64; 3]) -> [[f64; 3]; 2] {
     ]
 }
 
-/// What is asked of one frame.
+/// Settings of the search in one frame.
 #[derive(Clone, Copy)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a choice of its own")]
 struct Wanted {
@@ -94,10 +96,10 @@ struct Wanted {
     places: bool,
 }
 
-/// Sources, and the bodies that their triangles are of.
-struct Split<'a>(&'a [Source], &'a Bodies);
+/// Sources together with the map from their triangles to bodies.
+struct SplitSources<'a>(&'a [Source], &'a Bodies);
 
-impl Meshes for Split<'_> {
+impl Meshes for SplitSources<'_> {
     fn sizes(&self, source: u32) -> [usize; 2] {
         let source = &self.0[source as usize];
         [source.vertex_count(), source.triangles().len()]
@@ -116,18 +118,18 @@ impl Meshes for Split<'_> {
     }
 }
 
-/// Pairs that are left out.
-struct Baseline {
+/// Known pairs, which are left out, and the meshes for which they hold.
+struct KnownPairs {
     frame: usize,
-    /// Sorted; none before the frame was checked.
+    /// Sorted; `None` until the frame was checked.
     pairs: Option<Vec<Row>>,
-    /// The meshes of sources in that frame.
+    /// Mesh numbers of the sources in that frame.
     meshes: Vec<MeshNumber>,
-    /// For each source whether it has now the mesh that it has there.
+    /// Whether each source now has the mesh that it has in that frame.
     comparable: Vec<bool>,
 }
 
-impl Baseline {
+impl KnownPairs {
     fn of(frame: usize, pairs: Option<Vec<Row>>, sources: usize) -> Self {
         Self {
             frame,
@@ -137,13 +139,13 @@ impl Baseline {
         }
     }
 
-    /// Takes the pairs of its frame, which the sources are in.
+    /// Stores the pairs of the baseline's frame, in which the sources are now.
     fn take(&mut self, pairs: Vec<Row>, sequence: &Sequence) {
         self.pairs = Some(pairs);
         self.meshes.clone_from(&sequence.meshes);
     }
 
-    /// Compares the meshes of a frame that the sources are in with its own.
+    /// Compares the meshes of the sources, in their frame, with the baseline's.
     fn compare(&mut self, sequence: &Sequence) {
         let meshes = self.meshes.iter().zip(&sequence.meshes);
         self.comparable = meshes.map(|(own, other)| own == other).collect();
@@ -151,12 +153,16 @@ impl Baseline {
 }
 
 impl Check {
-    /// Opens what `arguments` name, each a source or, of a glTF file, a source for each of its bodies, and prepares to check it. Those
-    /// that name groups of one OBJ file, `scan.obj#arm` and `scan.obj#leg`, are one source, and the groups its bodies.
+    /// Opens the files that `arguments` name, and prepares to check them.
+    ///
+    /// An argument is a source. A glTF file is one source for each of its bodies. Arguments that
+    /// name groups of one OBJ file, `scan.obj#arm` and `scan.obj#leg`, are one source, and the
+    /// groups are its bodies.
     ///
     /// # Errors
     ///
-    /// A file cannot be read, a clip is asked for where nothing has any, or [`new`](Self::new) refuses.
+    /// A file cannot be read, a clip is asked for where no source has any, or [`new`](Self::new)
+    /// refuses.
     pub fn open(
         arguments: &[String],
         reading: &OpenOptions,
@@ -167,11 +173,11 @@ impl Check {
         })
     }
 
-    /// As [`open`](Self::open), of what a program opens in its own way.
+    /// [`open`](Self::open) with a function of the caller that opens one argument.
     ///
     /// # Errors
     ///
-    /// As `open`.
+    /// See [`open`](Self::open).
     pub fn open_each(
         arguments: &[String],
         reading: &OpenOptions,
@@ -186,11 +192,16 @@ impl Check {
         Self::of(opened, settings)
     }
 
-    /// Prepares to check sources that are open, none of whose frames was handed out.
+    /// Prepares to check open sources. No frame may have been read from them.
     ///
     /// # Errors
     ///
-    /// There is no source, their frame counts differ, or a frame or a name in the settings is none that there is.
+    /// - There is no source, or frame counts differ and neither is 1.
+    /// - The mesh of a first frame has too many point triangles at one place, or cannot be split as
+    ///   asked.
+    /// - The settings name a frame or a body that does not exist, contradict each other, or have a
+    ///   bad distance.
+    /// - The file of a baseline cannot be used.
     pub fn new(sources: Vec<Source>, settings: &Settings) -> Result<Self, Error> {
         Self::of(Opened::whole(sources), settings)
     }
@@ -214,12 +225,12 @@ impl Check {
             None => None,
             Some(settings::Baseline::Frame(frame)) => {
                 there("the baseline", *frame)?;
-                Some(Baseline::of(*frame, None, sequence.sources.len()))
+                Some(KnownPairs::of(*frame, None, sequence.sources.len()))
             }
             Some(settings::Baseline::File(file)) => {
                 let most = settings.max_list;
                 let pairs = baseline::read(file, &sequence.sources, &bodies, most)?;
-                Some(Baseline::of(0, Some(pairs), sequence.sources.len()))
+                Some(KnownPairs::of(0, Some(pairs), sequence.sources.len()))
             }
         };
         let all = Frames {
@@ -280,60 +291,63 @@ impl Check {
         })
     }
 
-    /// What is checked, in the order of the arguments and of the bodies of each; the positions are those of the frame checked last.
+    /// Sources in the order of the arguments and of the bodies of each, with the positions of the
+    /// frame read last.
     pub fn sources(&self) -> &[Source] {
         &self.sequence.sources
     }
 
-    /// The world in the frame checked last, as the queries left it; empty before the first.
+    /// The world in the frame checked last, as the queries left it. Empty before the first frame.
     pub fn world(&self) -> &AnyWorld {
         &self.sequence.world
     }
 
-    /// How many frames the sources have, checked or not.
+    /// Number of frames of the sources, checked or not.
     pub fn frame_count(&self) -> usize {
         self.sequence.frame_count
     }
 
-    /// The numbers of the frames that are still to be checked.
+    /// Numbers of the frames still to be checked.
     pub fn frames(&self) -> impl Iterator<Item = usize> + Clone + use<> {
         let Frames { start, step, count } = self.frames;
         (0..count).map(move |frame| start + frame * step)
     }
 
-    /// How many bodies there are in answers: the sources, or what they are split into.
+    /// Number of bodies in answers: sources, or the pieces or groups that they are split into.
     pub fn body_count(&self) -> usize {
         self.bodies.count() as usize
     }
 
-    /// Whether a source is split into bodies, or only groups of it are; then its bodies are named behind a `#`.
+    /// Whether a source is split into bodies, or takes part only by some groups. Then its bodies
+    /// are named behind a `#`.
     pub fn is_split(&self, source: usize) -> bool {
         self.bodies.is_split(source)
     }
 
-    /// What is known of the bodies, in the order of their numbers.
+    /// Facts about all bodies, in the order of their numbers.
     pub fn bodies(&self) -> impl Iterator<Item = BodyFacts> {
         (0..self.bodies.count()).map(|body| self.bodies.facts(&self.sequence.sources, body))
     }
 
-    /// What is known of one body; `None` if there are not so many.
+    /// Facts about one body; `None` if there is no such body.
     pub fn body(&self, body: u32) -> Option<BodyFacts> {
         (body < self.bodies.count()).then(|| self.bodies.facts(&self.sequence.sources, body))
     }
 
-    /// The number of the source that a body is of; `None` if there are not so many bodies.
+    /// Number of the source of a body; `None` if there is no such body.
     pub fn source_of(&self, body: u32) -> Option<usize> {
         (body < self.bodies.count()).then(|| self.bodies.source_of(body))
     }
 
-    /// The number of the body that a triangle of a source is of; `None` where its group was not asked for, or if there is none.
+    /// Number of the body of a source's triangle. `None` if its group was not asked for, or if it
+    /// does not exist.
     pub fn body_of(&self, source: usize, triangle: usize) -> Option<u32> {
         let triangles = self.sequence.sources.get(source)?.triangles().len();
         let is_there = triangle < triangles;
         is_there.then(|| self.bodies.of_triangle(source as u32, triangle as u32))?
     }
 
-    /// The numbers of the bodies of a source; none if there are not so many sources.
+    /// Numbers of the bodies of a source; empty if there is no such source.
     pub fn bodies_of(&self, source: usize) -> Range<u32> {
         if source < self.sequence.sources.len() {
             self.bodies.of_source(source)
@@ -342,18 +356,23 @@ impl Check {
         }
     }
 
-    /// What the frames so far say of a source whose seams are not quite closed: its pairs with itself there; `None` where they are.
+    /// Pairs of a source with itself at seams that are nearly closed, in the frames so far. `None`
+    /// where there are none.
     pub fn at_seams(&self, source: usize) -> Option<AtSeams> {
         self.remarks.at_seams(source)
     }
 
-    /// The frames so far in which vertices of a source are apart that are one in its first; `None` where there is no such frame.
+    /// Frames so far in which a seam of a source is open that is closed in its first frame. `None`
+    /// where there are none.
     pub fn parted(&self, source: usize) -> Option<Parted> {
         self.remarks.parted(source)
     }
 
-    /// The places of the frames so far, if [`Settings::places`] are asked for: how many there were, and those with the most pairs in a
-    /// frame, most first; of very many, a thousand.
+    /// Places of the frames so far, if [`Settings::places`] is set: their number, and the lives of
+    /// the largest.
+    ///
+    /// Ordered by the most pairs in a frame, most first. Of more than a thousand places, the
+    /// largest thousand.
     pub fn places(&self) -> (usize, Vec<Life>) {
         (self.lives.count(), self.lives.largest())
     }
@@ -363,13 +382,14 @@ impl Check {
         self.asked.itself
     }
 
-    /// From now on asks for no more than one pair in each frame, or for all; for a list of them, or for their number. As
-    /// [`Settings::first`] and [`Settings::listed`], where frames differ in what is wanted of them.
+    /// Changes [`Settings::first`] and [`Settings::listed`] for the frames still to be checked.
     pub fn ask(&mut self, first: bool, listed: bool) {
         (self.asked.first, self.asked.listed) = (first, listed);
     }
 
-    /// Reads the first frame that is to be checked, which is checked when it is asked for: the sources are in it.
+    /// Reads the first frame that is to be checked, without checking it.
+    ///
+    /// [`sources`](Self::sources) and the boxes are then of this frame.
     ///
     /// # Errors
     ///
@@ -381,14 +401,22 @@ impl Check {
         Ok(())
     }
 
-    /// The smallest and the largest coordinates of a source, in the frame that it is in.
+    /// Bounding box of a source in its current frame: lower and upper corner.
+    ///
+    /// Costs O(t) for t triangles. Without triangles, +∞ and −∞.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such source.
     pub fn box_of(&self, source: usize) -> [[f64; 3]; 2] {
         let source = &self.sequence.sources[source];
         let corners = source.triangles().as_flattened().iter();
         around(corners.map(|&vertex| source.positions().get(vertex)))
     }
 
-    /// The same of each body, in the order of their numbers.
+    /// Bounding boxes of all bodies in the current frame, in the order of their numbers.
+    ///
+    /// Costs O(t) for t triangles. Each box is a lower and an upper corner.
     pub fn boxes(&self) -> Vec<[[f64; 3]; 2]> {
         let mut boxes = Vec::with_capacity(self.body_count());
         for (number, source) in self.sequence.sources.iter().enumerate() {
@@ -410,8 +438,11 @@ impl Check {
         boxes
     }
 
-    /// The arguments whose bodies are the largest and the smallest by their longest side, and these sides, in the frame that the sources
-    /// are in; `None` where these do not differ by a hundred times: they may well be of different units.
+    /// The arguments with the largest and the smallest bodies, and their longest sides, if they may
+    /// be of different units.
+    ///
+    /// Bodies are measured by the longest side of their box, in the current frame. `None` where the
+    /// sides differ by less than a factor of 100. Costs O(t) for t triangles.
     pub fn unlike_sizes(&self) -> Option<[(&str, f64); 2]> {
         let mut sides: BTreeMap<&str, f64> = BTreeMap::new();
         for (number, source) in self.sequence.sources.iter().enumerate() {
@@ -421,7 +452,7 @@ impl Check {
             let known = sides.entry(source.argument()).or_default();
             *known = known.max(longest);
         }
-        // A point has no size that could be of a unit.
+        // A point has no size, and so no unit.
         let sides = || sides.iter().filter(|&(_, &side)| side > 0.0);
         let by_side = |a: &(&&str, &f64), b: &(&&str, &f64)| a.1.total_cmp(b.1);
         let two = [sides().max_by(by_side)?, sides().min_by(by_side)?];
@@ -429,24 +460,28 @@ impl Check {
         (most >= MOST_UNLIKE * least).then_some([(*large, most), (*small, least)])
     }
 
-    /// Reads the next frame and checks it; `None` after the last.
+    /// Reads and checks the next frame; `None` after the last.
     ///
-    /// The mesh of a source may be another one from file to file: [`Found::changed`]. Triangles are numbered as in the frame.
+    /// The mesh of a source may change from file to file: [`Found::changed`]. Triangles are
+    /// numbered as in the frame.
     ///
     /// # Errors
     ///
-    /// A file cannot be read, or there are more pairs than may be listed, or counted. No frame follows: every later call is an error
-    /// too.
+    /// A file cannot be read, or there are more pairs than may be listed or counted. No frame
+    /// follows: every later call fails too.
     pub fn next_frame(&mut self) -> Result<Option<Found>, Error> {
         self.next_frame_unless(None)
     }
 
-    /// As [`next_frame`](Self::next_frame), unless `stop` says so: it is asked again and again while pairs are looked for, as
-    /// [`pliant::Query::interrupt_if`] describes.
+    /// [`next_frame`](Self::next_frame) with a callback that can stop it.
+    ///
+    /// `stop` is called again and again during the search, as [`pliant::Query::interrupt_if`]
+    /// describes.
     ///
     /// # Errors
     ///
-    /// As `next_frame`, or [`Error::Interrupted`]: after that alone the same frame can be asked for again.
+    /// See [`next_frame`](Self::next_frame). If `stop` returned true, [`Error::Interrupted`]: then
+    /// the same frame can be asked for again.
     pub fn next_frame_unless(
         &mut self,
         stop: Option<&(dyn Fn() -> bool + Sync)>,
@@ -460,7 +495,7 @@ impl Check {
         // Set first, so that an error on any way out leaves it set.
         self.failed = true;
         self.from = None;
-        if let Some(Baseline {
+        if let Some(KnownPairs {
             frame, pairs: None, ..
         }) = self.baseline
         {
@@ -491,7 +526,7 @@ impl Check {
         if wanted.places {
             let places = self
                 .places
-                .end(&Split(&self.sequence.sources, &self.bodies));
+                .end(&SplitSources(&self.sequence.sources, &self.bodies));
             self.lives.take(frame, &places);
             found.places = Some(places);
         }
@@ -506,18 +541,23 @@ impl Check {
         Ok(Some(found))
     }
 
-    /// What meets on the way from the frame found last to the next that is checked, if [`Settings::swept`] is asked; `None` before the first
-    /// frame, behind the last, and when it was said already. A check whose intervals are not asked for does not look for them.
+    /// Finds impacts between the frame checked last and the next one, if [`Settings::swept`] is
+    /// set.
+    ///
+    /// `None` before the first frame, after the last, and when this interval was returned already.
+    /// An interval that is not asked for costs nothing.
     ///
     /// ```
-    /// # let folder = std::env::temp_dir().join(format!("pliant-check-swept-{}", std::process::id()));
+    /// # let folder = format!("pliant-check-swept-{}", std::process::id());
+    /// # let folder = std::env::temp_dir().join(folder);
     /// # std::fs::create_dir_all(&folder)?;
     /// # for (name, z) in [("leaf_0.obj", 2), ("leaf_1.obj", -2)] {
     /// #     let corners = format!("v 1 1 {z}\nv 2 1 {z}\nv 1 2 {z}\n");
     /// #     std::fs::write(folder.join(name), corners + "f 1 2 3\n")?;
     /// # }
     /// # std::fs::write(folder.join("floor.obj"), "v 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3\n")?;
-    /// # let arguments = ["leaf_*.obj", "floor.obj"].map(|name| folder.join(name).display().to_string());
+    /// # let arguments = ["leaf_*.obj", "floor.obj"];
+    /// # let arguments = arguments.map(|name| folder.join(name).display().to_string());
     /// use pliant_check::{Check, Settings};
     /// use pliant_io::OpenOptions;
     ///
@@ -537,21 +577,23 @@ impl Check {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// The sources then have the positions of the next frame; the world is in the frame found last, with a motion to the next, unless a mesh is
-    /// another there. Its seams are those that are closed in both.
+    /// The sources then have the positions of the next frame. The world stays in the frame checked
+    /// last, with a motion to the next, unless a mesh changes. Its seams are closed where they are
+    /// closed in both frames.
     ///
     /// # Errors
     ///
-    /// As [`next_frame`](Self::next_frame).
+    /// See [`next_frame`](Self::next_frame).
     pub fn next_interval(&mut self) -> Result<Option<Interval>, Error> {
         self.next_interval_unless(None)
     }
 
-    /// As [`next_interval`](Self::next_interval), unless `stop` says so.
+    /// [`next_interval`](Self::next_interval) with a callback that can stop it.
     ///
     /// # Errors
     ///
-    /// As `next_interval`, or [`Error::Interrupted`]: after that alone the same interval can be asked for again.
+    /// See [`next_interval`](Self::next_interval). If `stop` returned true, [`Error::Interrupted`]:
+    /// then the same interval can be asked for again.
     pub fn next_interval_unless(
         &mut self,
         stop: Option<&(dyn Fn() -> bool + Sync)>,
@@ -580,7 +622,7 @@ impl Check {
         Ok(Some(interval))
     }
 
-    /// The pairs of a frame, which is read.
+    /// Goes to a frame and finds its pairs.
     fn found_in(
         &mut self,
         frame: usize,
@@ -589,7 +631,7 @@ impl Check {
     ) -> Result<Found, Error> {
         self.go_to(frame)?;
         let found = self.find(frame, wanted, stop);
-        // What was read stays, and nothing else was lost.
+        // An interrupted search loses nothing: the frame stays read.
         self.failed = !matches!(found, Err(Error::Interrupted { .. }));
         found
     }
@@ -613,8 +655,9 @@ impl Check {
         Ok(())
     }
 
-    /// Sources none of whose bodies meet are kept apart in the world, and so are sources from themselves, so that no time is spent on
-    /// them.
+    /// Tells the world which pairs of sources, and which sources with themselves, never meet.
+    ///
+    /// So no time is spent on them.
     fn part_sources(&mut self) -> Result<(), pliant::Error> {
         let with_themselves = self.sources_with_themselves();
         let Sequence { world, ids, .. } = &mut self.sequence;
@@ -627,7 +670,7 @@ impl Check {
             }
         }
         if self.filter.lets_all_meet() {
-            // Of very many sources very many pairs would be asked about.
+            // With very many sources, the loop below would ask about too many pairs.
             return Ok(());
         }
         for b in 0..ids.len() {
@@ -642,7 +685,7 @@ impl Check {
         Ok(())
     }
 
-    /// The pairs of the frame that the world is in.
+    /// Finds the pairs of the frame that the world is in.
     fn find(
         &mut self,
         frame: usize,
@@ -691,7 +734,7 @@ impl Check {
         }
     }
 
-    /// What meets on the way between two frames, of the world in the one with a motion to the other.
+    /// Finds impacts between two frames. The world is in the first, with a motion to the second.
     fn find_impacts(
         &mut self,
         frame: usize,
@@ -722,7 +765,8 @@ impl Check {
         interval.map_err(|error| self.refused(frame, error))
     }
 
-    /// Shows `taker` all elements of bodies that meet on the way; the first alone, where only that is asked for and the world knows it.
+    /// Shows `taker` all impacts; only the first, if that is asked for and the world can find it
+    /// alone.
     fn take_impacts(
         &mut self,
         taker: &mut ImpactTaker,
@@ -740,7 +784,7 @@ impl Check {
                 Some(first) if first.high() > 0.0 => {
                     return Ok(taker.take(first.into(), [first.low(), first.high()]));
                 }
-                // Behind what meets in the frame already it does not look.
+                // The world stops at contacts of the frame itself; impacts behind them need all.
                 Some(_) => {}
             }
         }
@@ -760,21 +804,22 @@ impl Check {
         let bodies_of = (0..owners.len()).map(|source| bodies.of_source(source).start);
         let bodies_of: Vec<u32> = bodies_of.collect();
         let is_asked = |&[a, b]: &[u32; 2]| (a != b || *itself) && filter.meet(a, b);
-        let mut take = |pair: Elements, cell: [f64; 2]| {
-            let (Elements::VertexTriangle([source_a, a, source_b, b])
-            | Elements::EdgeEdge([source_a, a, source_b, b])) = pair;
+        let mut take = |pair: ElementPair, cell: [f64; 2]| {
+            let (ElementPair::VertexTriangle([source_a, a, source_b, b])
+            | ElementPair::EdgeEdge([source_a, a, source_b, b])) = pair;
             let of_element = |source: u32, of: &dyn Fn(&Owners) -> &[u32]| {
                 let source = source as usize;
                 let whole = || std::slice::from_ref(&bodies_of[source]);
                 owners[source].as_ref().map_or_else(whole, of)
             };
-            // What lies between two bodies is of both: of those that may meet the lowest stand for all.
-            let pair = if let Elements::VertexTriangle(_) = pair {
+            // An element between two bodies is of both. Of the pairs that may meet, the smallest
+            // counts.
+            let pair = if let ElementPair::VertexTriangle(_) = pair {
                 let of_a = of_element(source_a, &|it| it.of_vertex(a));
                 let of_b = of_element(source_b, &|it| it.of_triangle(b));
                 let mut pairs = of_a.iter().flat_map(|&a| of_b.iter().map(move |&b| [a, b]));
                 let row = pairs.find(is_asked);
-                row.map(|[body_a, body_b]| Elements::VertexTriangle([body_a, a, body_b, b]))
+                row.map(|[body_a, body_b]| ElementPair::VertexTriangle([body_a, a, body_b, b]))
             } else {
                 let of_a = of_element(source_a, &|it| it.of_edge(a));
                 let of_b = of_element(source_b, &|it| it.of_edge(b));
@@ -784,7 +829,7 @@ impl Check {
                     let ((body_a, a), (body_b, b)) = (one.min(other), one.max(other));
                     [body_a, a, body_b, b]
                 });
-                rows.min().map(Elements::EdgeEdge)
+                rows.min().map(ElementPair::EdgeEdge)
             };
             pair.map_or(ControlFlow::Continue(()), |pair| taker.take(pair, cell))
         };
@@ -799,7 +844,10 @@ impl Check {
         })
     }
 
-    /// Whose the elements of sources are that are not one body, or not all of one, on the way that the world is on.
+    /// Owners of the elements of all sources for the current motion; `None` for a source of one
+    /// body.
+    ///
+    /// Without triangles that are degenerate in both frames, if these are skipped.
     fn owners_now(&self) -> Result<Vec<Option<Owners>>, pliant::Error> {
         let skip = self.asked.skip_degenerate;
         let Sequence {
@@ -832,7 +880,7 @@ impl Check {
         owners.collect()
     }
 
-    /// Any pair will do: the world knows a shorter way.
+    /// Shows `taker` any one pair, by the world's faster query for the first.
     fn take_first(
         &mut self,
         taker: &mut Taker,
@@ -895,7 +943,7 @@ impl Check {
                 let before = taker.count();
                 stop = taker.take(row, how, degenerate, comparable == [true; 2]);
                 if wanted.places && taker.count() > before {
-                    places.take(&Split(sources, bodies), of_sources, row);
+                    places.take(&SplitSources(sources, bodies), of_sources, row);
                 }
             }
             if stop.is_break() {
@@ -919,7 +967,8 @@ impl Check {
                 .visit(|pair| take(pair.into(), How::Intersecting(None))),
             Some(most) => unless(question, world.close_triangle_pairs(*of, most))
                 .visit(|close| {
-                    // What is known of a distance is off by a billionth; that it is at most this is known exactly.
+                    // The computed distance is off by up to a billionth. The library decides
+                    // exactly that it is at most `most`.
                     let distance = close.distance.min(most);
                     let points = [close.point_a, close.point_b];
                     take(close.pair.into(), How::Close(Closeness { distance, points }))
@@ -928,7 +977,8 @@ impl Check {
         Ok(stop)
     }
 
-    /// All pairs, in terms of sources, of places that do not only touch; tells `taker` how many others there are.
+    /// All pairs, in terms of sources, in places that do not only touch. Tells `taker` how many
+    /// others there are.
     fn all_crossing(
         &mut self,
         taker: &mut Taker,
@@ -958,14 +1008,14 @@ impl Check {
         if visited.is_break() {
             return Ok(ControlFlow::Break(Stop::Full));
         }
-        let only_touch = only_touch(&Split(sources, bodies), &pairs);
+        let only_touch = only_touch(&SplitSources(sources, bodies), &pairs);
         taker.leave_touching(only_touch.iter().filter(|&&it| it).count());
         let mut only_touch = only_touch.into_iter();
         pairs.retain(|_| only_touch.next() == Some(false));
         Ok(ControlFlow::Continue(pairs))
     }
 
-    /// Sources that are to be asked for pairs with themselves: of one body, or of its pieces.
+    /// Sources that may have pairs with themselves: of one body, or between its pieces.
     fn sources_with_themselves(&self) -> Vec<usize> {
         let is_asked = |&source: &usize| {
             let of_source = self.bodies.of_source(source);

@@ -1,26 +1,30 @@
-//! Whose vertices and edges are: the bodies of the triangles that have them.
+//! Owners of vertices and edges: the bodies of the triangles that have them.
 //!
-//! A vertex or an edge between two groups of a source is of both. Where only some triangles count, so do only their vertices and edges.
+//! A vertex or an edge between two groups of a source belongs to both. Triangles that do not count
+//! give no ownership.
 
 use crate::pieces::NONE;
 
-/// The bodies of the vertices and edges of a source.
-pub(crate) struct Elements {
-    vertices: Owners,
-    edges: Owners,
-    /// For each triangle its body, or [`NONE`].
+/// Owners of the vertices, edges and triangles of a source.
+pub(crate) struct Owners {
+    vertices: Lists,
+    edges: Lists,
+    /// Body of each triangle, or [`NONE`].
     triangles: Vec<u32>,
 }
 
-/// For each of some things the bodies that it is of, ascending.
-struct Owners {
-    /// For each where its bodies begin, and at the end how many there are.
+/// Ascending lists of bodies, one for each element, as compressed sparse rows (CSR).
+struct Lists {
+    /// Start of each element's list, and at the end the length of all: a prefix sum.
     starts: Vec<u32>,
     bodies: Vec<u32>,
 }
 
-impl Elements {
-    /// Of a mesh whose edges, the smaller vertex first, are sorted. `body` says what a triangle is of; none where it does not count.
+impl Owners {
+    /// Owners of the elements of a mesh. `edges` are sorted, the smaller vertex first in each.
+    ///
+    /// `body` returns the body of a triangle, or `None` if the triangle does not count. O(t log t)
+    /// for t triangles.
     pub(crate) fn of(
         triangles: &[[u32; 3]],
         vertices: usize,
@@ -43,8 +47,8 @@ impl Elements {
             of_edges.extend(numbers.map(|edge| [edge as u32, body]));
         }
         Self {
-            vertices: Owners::of(vertices, of_vertices),
-            edges: Owners::of(edges.len(), of_edges),
+            vertices: Lists::of(vertices, of_vertices),
+            edges: Lists::of(edges.len(), of_edges),
             triangles: of_triangles,
         }
     }
@@ -65,8 +69,8 @@ impl Elements {
     }
 }
 
-impl Owners {
-    /// Of so many things; `pairs` are a thing and a body.
+impl Lists {
+    /// Builds the lists of `count` elements from pairs of element and body.
     fn of(count: usize, mut pairs: Vec<[u32; 2]>) -> Self {
         pairs.sort_unstable();
         pairs.dedup();
@@ -99,11 +103,11 @@ mod tests {
 
     #[test]
     fn what_lies_between_two_bodies_is_of_both() {
-        // Two triangles side by side, one that does not count, and a vertex that nobody has.
+        // Two triangles side by side, one that does not count, and an unused vertex.
         let triangles = [[0, 1, 2], [3, 2, 1], [3, 2, 4]];
         let edges = [[0, 1], [0, 2], [1, 2], [1, 3], [2, 3], [2, 4], [3, 4]];
         let of = |triangle| [Some(7), Some(5), None][triangle as usize];
-        let elements = Elements::of(&triangles, 6, &edges, of);
+        let elements = Owners::of(&triangles, 6, &edges, of);
         let vertices: Vec<&[u32]> = (0..7).map(|it| elements.of_vertex(it)).collect();
         assert_eq!(vertices, [&[7][..], &[5, 7], &[5, 7], &[5], &[], &[], &[]]);
         let edges: Vec<&[u32]> = (0..8).map(|it| elements.of_edge(it)).collect();

@@ -1,57 +1,63 @@
-//! Why a check could not begin, or could not go on. Each message is one line, and names no option as a program or Python writes
-//! it: whoever shows the message adds what to do.
+//! Errors of a check. Each message is one line.
+//!
+//! A message names no option as a program or Python writes it. The caller that shows the message
+//! adds what to do.
 
 use pliant_io::{shown, shown_within};
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// A name in quotes.
+/// `name` in quotes, shortened to 100 characters.
 pub(crate) fn quoted(name: &str) -> String {
     format!("\"{}\"", shown_within(name, 100))
 }
 
-/// Why frames could not be checked.
+/// Why a check could not begin or could not go on.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A file could not be read.
     #[error(transparent)]
     Read(#[from] pliant_io::Error),
-    /// There is nothing to check.
+    /// No source was given.
     #[error("no path was given; each is a body")]
     NoSources,
-    /// A clip was asked for, but no source has one.
+    /// A clip was asked for, but no source has an animation.
     #[error("no body has an animation, so none can be chosen")]
     NoClip,
-    /// A distance that is none.
+    /// The distance is negative or not finite.
     #[error("a distance must be a finite number, at least 0; this is {0}")]
     Distance(f64),
-    /// Bodies are asked how close they are to themselves.
+    /// A distance was asked for with bodies checked against themselves.
     #[error(
-        "neighbouring triangles of a body always are close to each other: a distance is kept between two bodies or more, and not with themselves"
+        "neighbouring triangles of a body always are close to each other: a distance is kept \
+         between two bodies or more, and not with themselves"
     )]
     WithinItself,
-    /// It is asked what crosses, and how close triangles are.
+    /// Crossing places and a distance were asked for together.
     #[error(
-        "triangles that are close need not even touch: what crosses, and how close triangles are, cannot be asked at once"
+        "triangles that are close need not even touch: what crosses, and how close triangles are, \
+         cannot be asked at once"
     )]
     CrossingWithin,
-    /// It is asked what meets between frames, and only one is checked.
+    /// Impacts between frames were asked for, but only one frame is checked.
     #[error(
         "one frame alone is checked: there is no other to move to, and nothing to meet on the way"
     )]
     SweptOneFrame,
-    /// It is asked what meets between frames, and how close triangles are.
+    /// Impacts between frames and a distance were asked for together.
     #[error(
-        "on the way from frame to frame it is known who meets, not who comes close: both cannot be asked at once"
+        "on the way from frame to frame it is known who meets, not who comes close: both cannot be \
+         asked at once"
     )]
     SweptWithin,
-    /// It is asked what meets between frames, and pairs are to be left out.
+    /// Impacts between frames and a baseline were asked for together.
     #[error(
-        "a baseline has pairs of triangles, and on the way from frame to frame vertices meet triangles and edges meet edges: which of them are known cannot be said"
+        "a baseline has pairs of triangles, and on the way from frame to frame vertices meet \
+         triangles and edges meet edges: which of them are known cannot be said"
     )]
     SweptBaseline,
-    /// Sources move, but not together.
+    /// Two moving sources differ in the number of frames.
     #[error(
         "frame counts must be equal or 1: {} has {frames} frames, {} has {other_frames}",
         shown(longest),
@@ -60,122 +66,125 @@ pub enum Error {
     FrameCounts {
         /// The source with the most frames.
         longest: String,
-        /// How many it has.
+        /// Number of frames of `longest`.
         frames: usize,
-        /// One that has neither as many nor one.
+        /// A source with neither `frames` frames nor one.
         other: String,
-        /// How many that has.
+        /// Number of frames of `other`.
         other_frames: usize,
     },
-    /// A source ended before the frame that it said it has.
+    /// A source ended before the number of frames that it announced.
     #[error("{}: frame {frame} is missing", shown(source_name))]
     Missing {
-        /// The source.
+        /// Name of the source.
         source_name: String,
-        /// The frame.
+        /// Number of the missing frame.
         frame: usize,
     },
-    /// The library refused what was read.
+    /// The library refused a mesh or its positions.
     #[error("{}, frame {frame}: {error}", shown(source_name))]
     Refused {
-        /// The source.
+        /// Name of the source.
         source_name: String,
-        /// The frame.
+        /// Number of the frame.
         frame: usize,
-        /// What was wrong.
+        /// The library's reason.
         error: pliant::Error,
     },
-    /// Sources are to be split into groups, and none can be.
+    /// A split into groups was asked for, but no source can be split.
     #[error("{}: cannot be split into groups: {why}", shown(source_name))]
     NoGroups {
-        /// The first that cannot be.
+        /// Name of the first source that cannot be split.
         source_name: String,
-        /// Why.
+        /// Reason.
         why: &'static str,
     },
-    /// A list of pairs would take more memory than it may.
+    /// The list of pairs would exceed its memory limit.
     #[error(
-        "frame {frame}: more than {most} pairs are found, and their list needs more memory than is allowed"
+        "frame {frame}: more than {most} pairs are found, and their list needs more memory than is \
+         allowed"
     )]
     TooManyPairs {
-        /// The frame.
+        /// Number of the frame.
         frame: usize,
-        /// So many may be listed.
+        /// Most pairs that fit the limit.
         most: usize,
     },
-    /// There are more pairs than anybody would wait for, or look at.
+    /// A frame has more pairs than are counted.
     #[error("frame {frame}: more than {most} pairs are found, and the rest is not looked for")]
     Endless {
-        /// The frame.
+        /// Number of the frame.
         frame: usize,
-        /// So many are counted.
+        /// Most pairs that are counted.
         most: usize,
     },
-    /// A list of what meets between two frames would take more memory than it may.
+    /// The list of impacts between two frames would exceed its memory limit.
     #[error(
-        "from frame {frame} to {until}: more than {most} pairs of elements meet, and their list needs more memory than is allowed"
+        "from frame {frame} to {until}: more than {most} pairs of elements meet, and their list \
+         needs more memory than is allowed"
     )]
     TooManyImpacts {
-        /// The frame.
+        /// Number of the earlier frame.
         frame: usize,
-        /// The next.
+        /// Number of the later frame.
         until: usize,
-        /// So many may be listed.
+        /// Most impacts that fit the limit.
         most: usize,
     },
-    /// More meets between two frames than anybody would wait for, or look at.
+    /// More elements meet between two frames than are counted.
     #[error(
-        "from frame {frame} to {until}: more than {most} pairs of elements meet, and the rest is not looked for"
+        "from frame {frame} to {until}: more than {most} pairs of elements meet, and the rest is \
+         not looked for"
     )]
     EndlessImpacts {
-        /// The frame.
+        /// Number of the earlier frame.
         frame: usize,
-        /// The next.
+        /// Number of the later frame.
         until: usize,
-        /// So many are counted.
+        /// Most impacts that are counted.
         most: usize,
     },
-    /// Very many triangles are points, and at one place: each of them meets every other.
+    /// Too many triangles are the same point, so that each meets every other.
     #[error(
         "{}: {count} triangles are one point, ({x:e}, {y:e}, {z:e}), where each meets every other",
         shown(source_name)
     )]
     OnePoint {
-        /// The source.
+        /// Name of the source.
         source_name: String,
-        /// How many there are.
+        /// Number of such triangles.
         count: usize,
-        /// Where.
+        /// First coordinate of the point.
         x: f64,
-        /// Where.
+        /// Second coordinate.
         y: f64,
-        /// Where.
+        /// Third coordinate.
         z: f64,
     },
-    /// The caller did not want to wait any longer.
+    /// The caller interrupted the check.
     #[error("frame {frame}: interrupted")]
     Interrupted {
-        /// The frame.
+        /// Number of the frame.
         frame: usize,
     },
-    /// There is no such frame.
+    /// A frame number in the settings is beyond the last frame.
     #[error("{what} is frame {frame}, but the frames of these files are 0 to {last}")]
     NoSuchFrame {
-        /// What was to be that frame.
+        /// Role of the frame, such as "the baseline".
         what: &'static str,
-        /// The frame.
+        /// Number of the frame that was asked for.
         frame: usize,
-        /// The last that there is.
+        /// Number of the last frame.
         last: usize,
     },
-    /// A name in a group or in a pair to be ignored is nobody's.
+    /// A name in a group or in an ignored pair matches no body and no group.
     #[error("no {wanted} is called {}; {there}", quoted(name))]
     NoSuchName {
-        /// What it could have been.
+        /// Kind of thing that was looked for: "body", or "body or group".
         wanted: &'static str,
-        /// The name.
+        /// The unknown name.
         name: String,
-        /// Those that there are.
+        /// List of the known names.
         there: String,
     },
     /// A group cannot have this name.
@@ -183,44 +192,48 @@ pub enum Error {
     BadGroup {
         /// The name.
         name: String,
-        /// Why not.
+        /// Reason.
         why: &'static str,
     },
     /// A group has no bodies.
     #[error("no bodies are named for the group {}", quoted(name))]
     EmptyGroup {
-        /// The name.
+        /// The name of the group.
         name: String,
     },
-    /// The pairs of an earlier check cannot be left out.
+    /// The file of a baseline cannot be used.
     #[error("the baseline {}: {}", shown(file), shown_within(why, 1000))]
     BadBaseline {
-        /// Where they were to be read from.
+        /// Path of the file.
         file: PathBuf,
-        /// Why not.
+        /// Reason.
         why: String,
     },
-    /// Sources are split into pieces, and the mesh of one changes.
+    /// A source that is split changes its mesh.
     #[error(
-        "{}, frame {frame}: has another mesh than before, and what a body is split into is known of its first mesh only",
+        "{}, frame {frame}: has another mesh than before, and what a body is split into is known \
+         of its first mesh only",
         shown(source_name)
     )]
     PiecesChanged {
-        /// The source.
+        /// Name of the source.
         source_name: String,
-        /// The frame.
+        /// Number of the frame.
         frame: usize,
     },
-    /// A group of an OBJ file is to be split into connected pieces, whose numbers would stand where its name does.
+    /// Split into connected pieces, an argument names a group of an OBJ file.
+    ///
+    /// Numbers of pieces would stand where the group's name does.
     #[error(
-        "{} is a group, and behind the # of a file that is split into connected pieces stand their numbers",
+        "{} is a group, and behind the # of a file that is split into connected pieces stand their \
+         numbers",
         shown(name)
     )]
     PiecesOfGroup {
-        /// The name of the group, behind that of its file.
+        /// Name of the file, `#`, and the name of the group.
         name: String,
     },
-    /// A group of an OBJ file is named by two arguments.
+    /// Two arguments name the same group of an OBJ file.
     #[error(
         "{}: {} is named twice, as {} and as {}",
         shown(file),
@@ -229,14 +242,14 @@ pub enum Error {
         quoted(&names[1])
     )]
     NamedTwice {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// The group.
+        /// Name of the group.
         group: String,
-        /// What stands behind the # in the two arguments.
+        /// The text behind the `#` in the two arguments.
         names: [String; 2],
     },
-    /// An earlier frame could not be checked.
+    /// An earlier call failed, so that no frame follows.
     #[error("an earlier frame could not be checked, so the frames after it are not")]
     AfterError,
 }

@@ -1,7 +1,8 @@
-//! Who may meet whom: names, groups of names, and pairs of them that are ignored.
+//! Which bodies may meet: names, groups of names, and ignored pairs of names.
 //!
-//! Bodies that the same names stand for are of one *class*; whether two bodies meet is known of their classes. So `A,B` is one
-//! entry however many bodies are called A and B: thousands of pieces of a file, say.
+//! Bodies to which the same names apply form a *class*. Whether two bodies meet depends on their
+//! classes alone. So an ignored pair costs one entry, even if its names stand for thousands of
+//! pieces of a file.
 
 use crate::bodies::Bodies;
 use crate::error::{Error, quoted};
@@ -11,17 +12,17 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::ops::Range;
 
-/// Which bodies do not meet.
+/// Pairs of bodies that do not meet, stored by class.
 #[derive(Debug, Default)]
 pub(crate) struct Filter {
-    /// For each body its class; empty where all are of class 0.
+    /// Class of each body; empty if all are of class 0.
     classes: Vec<u32>,
     /// Pairs of classes that do not meet, the smaller first.
     ignored: BTreeSet<[u32; 2]>,
 }
 
 impl Filter {
-    /// Understands `groups` and `ignore`; names that are nobody's are refused.
+    /// Resolves the names in `groups` and `ignore`. Refuses unknown names.
     pub(crate) fn new(
         sources: &[Source],
         bodies: &Bodies,
@@ -37,10 +38,10 @@ impl Filter {
         terms.dedup();
 
         let mut classes = vec![0; bodies.count() as usize];
-        // For each class the terms that stand for its bodies.
+        // Terms that apply to the bodies of each class.
         let mut terms_of: Vec<Vec<&str>> = vec![Vec::new()];
         for term in terms {
-            // Bodies of a class that this term stands for are a new class.
+            // A term splits each class into bodies to which it applies and others.
             let mut parted = BTreeMap::new();
             for body in names.all(term)? {
                 let class = &mut classes[body as usize];
@@ -66,17 +67,17 @@ impl Filter {
         Ok(Self { classes, ignored })
     }
 
-    /// Whether two bodies meet, or a body itself.
+    /// Whether two bodies, or a body and itself, may meet.
     pub(crate) fn meet(&self, a: u32, b: u32) -> bool {
         self.lets_all_meet() || self.classes_meet(self.class(a), self.class(b))
     }
 
-    /// Whether nobody is kept apart.
+    /// Whether no pair of bodies is ignored.
     pub(crate) fn lets_all_meet(&self) -> bool {
         self.ignored.is_empty()
     }
 
-    /// Whether any of some bodies meets any of others.
+    /// Whether any body of one range may meet any of another.
     pub(crate) fn any_meet(&self, some: Range<u32>, others: Range<u32>) -> bool {
         if self.lets_all_meet() {
             return true;
@@ -98,15 +99,15 @@ impl Filter {
     }
 }
 
-/// What is behind the folder in a name; none where there is no folder.
+/// Part of a name behind its folder; `None` without a folder.
 fn without_folder(name: &str) -> Option<&str> {
-    // The name of a body behind the # may have a slash.
+    // The name of a body behind the `#` may have a slash.
     let file = name.split('#').next().unwrap_or(name);
     let end_of_folder = file.rfind(std::path::is_separator)?;
     Some(&name[end_of_folder + 1..])
 }
 
-/// What names stand for.
+/// Resolver of names to bodies.
 pub(crate) struct Names<'a> {
     sources: &'a [Source],
     bodies: &'a Bodies,
@@ -134,7 +135,8 @@ impl<'a> Names<'a> {
             }
             if names.groups.contains_key(name.as_str()) {
                 return Err(bad(
-                    "there is a group of this name; name all its bodies at once, or choose another name",
+                    "there is a group of this name; name all its bodies at once, or choose another \
+                     name",
                 ));
             }
             if names.of_bodies(name).is_some() || name.bytes().all(|c| c.is_ascii_digit()) {
@@ -156,7 +158,7 @@ impl<'a> Names<'a> {
         Ok(names)
     }
 
-    /// All bodies that a name stands for.
+    /// All bodies of a group, a file, a source or a body of this name.
     fn all(&self, name: &str) -> Result<Vec<u32>, Error> {
         match self.groups.get(name) {
             Some(members) => Ok(members.clone()),
@@ -166,8 +168,13 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// The bodies of the sources or the file of this name, the piece or the groups of this name, or the body of this number. A name without its
-    /// folder does, where no other file is called so.
+    /// Bodies that a name stands for, by the first rule that finds any; `None` if no rule does.
+    ///
+    /// 1. a source of this name, then an argument (a glTF file) of this name
+    /// 2. a piece or groups of a source, named behind a `#`
+    /// 3. the number of a body
+    ///
+    /// A file may be named without its folder, if no other file has the same name.
     pub(crate) fn of_bodies(&self, name: &str) -> Option<Vec<u32>> {
         let with = |is: &dyn Fn(&Source) -> bool| -> Vec<usize> {
             let places = 0..self.sources.len();
@@ -210,7 +217,7 @@ impl<'a> Names<'a> {
         (number < self.bodies.count()).then(|| vec![number])
     }
 
-    /// The body of this name: where it stands for several, the one that is called so and not only below it.
+    /// The one body that a name stands for; of several, the one with exactly this name.
     pub(crate) fn of_body(&self, name: &str) -> Option<u32> {
         let bodies = self.of_bodies(name)?;
         if let [body] = bodies[..] {
@@ -222,7 +229,7 @@ impl<'a> Names<'a> {
     }
 
     pub(crate) fn unknown(&self, wanted: &'static str, name: &str) -> Error {
-        /// So many names fit a line that is read.
+        /// Most names listed in a message, which has one line.
         const MOST: u32 = 20;
         let count = self.bodies.count();
         let mut there = "bodies: ".to_owned();

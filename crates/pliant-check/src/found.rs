@@ -1,57 +1,60 @@
-//! What intersects in one frame: all that was asked for is kept, and no more.
+//! Pairs of one frame, kept only as far as they were asked for.
 //!
-//! A small file can hold a great many intersecting pairs: their number is up to the square of the number of triangles. Where only
-//! their number is asked for, none is kept; where they are listed, the list has a limit.
+//! A small file can hold very many intersecting pairs: up to the square of its number of triangles.
+//! Pairs that are only counted are not kept. A list has a limit.
 
 use crate::places::Place;
 use crate::row::Row;
 use pliant::ContactKind;
 use std::ops::ControlFlow;
 
-/// The pairs of a frame.
+/// Pairs of a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
-    /// The frame.
+    /// Number of the frame.
     pub frame: usize,
-    /// The bodies that have another mesh than in the frame found before, or, of the first, than at the beginning; ascending. What is
-    /// known of them now says [`Check::body`](crate::Check::body).
+    /// Bodies whose mesh differs from the frame returned before, ascending.
+    ///
+    /// For the first frame returned, from the first frame of the source.
+    /// [`Check::body`](crate::Check::body) has their new facts.
     pub changed: Vec<u32>,
-    /// How many pairs; at most one if only the first was asked for.
+    /// Number of pairs; at most one if only the first was asked for.
     pub count: usize,
-    /// How many of each kind, where all pairs that intersect were asked for.
+    /// Numbers of pairs of each kind, if all intersecting pairs were asked for.
     pub kinds: Option<Kinds>,
-    /// The smallest of them; where only one pair was asked for, that pair.
+    /// The smallest pair; the only one, if only the first was asked for.
     pub smallest: Option<Row>,
-    /// How far apart the nearest of them is, at most as far as was asked for. `None` where there is no pair, or no distance was
-    /// asked for.
+    /// Distance of the nearest pair, at most the distance asked for. `None` without a pair, or if
+    /// no distance was asked for.
     pub distance: Option<f64>,
-    /// All of them, sorted; none where they are not listed.
+    /// All pairs, sorted; empty if they are not listed.
     pub pairs: Vec<Row>,
-    /// Where those of `pairs` that do not intersect are closest, in the same order; none if
-    /// [`closest_points`](crate::Settings::closest_points) were not asked for.
+    /// Closest points of the pairs in `pairs` that do not intersect, in the same order.
+    ///
+    /// Empty if [`closest_points`](crate::Settings::closest_points) is not set.
     pub gaps: Vec<Gap>,
-    /// How many were left out because they intersect in the baseline frame. `None` where there is no such frame, and where the
+    /// Number of pairs left out because the baseline has them. `None` without a baseline, or if the
     /// search stopped at the first new pair.
     pub left_out: Option<usize>,
-    /// How many were left out because their places only touch; `None` if that was not asked for:
-    /// [`crossing`](crate::Settings::crossing).
+    /// Number of pairs left out because their places only touch. `None` if
+    /// [`crossing`](crate::Settings::crossing) is not set.
     pub only_touching: Option<usize>,
-    /// How many pairs have a triangle without area: of these, or, where such are left out, how many were for that.
+    /// Number of pairs with a triangle without area: among these, or left out if such pairs are.
     pub degenerate: usize,
-    /// Whether these are all; not if only the first was asked for.
+    /// Whether these are all pairs; false if only the first was asked for.
     pub complete: bool,
-    /// The places of these pairs, most pairs first, if they were asked for and all pairs were.
+    /// Places of these pairs, most pairs first; `None` if they, or all pairs, were not asked for.
     pub places: Option<Vec<Place>>,
 }
 
-/// How many pairs intersect how: [`ContactKind`].
+/// Numbers of intersecting pairs by [`ContactKind`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Kinds {
-    /// They go through each other.
+    /// Pairs that cross: each passes through the other.
     pub crossing: usize,
-    /// They lie in one plane and have an area in common.
+    /// Pairs in one plane with an area in common.
     pub overlapping: usize,
-    /// They touch, and no more.
+    /// Pairs that only touch.
     pub touching: usize,
 }
 
@@ -65,59 +68,61 @@ impl Kinds {
     }
 }
 
-/// What is known of two triangles besides that they are a pair.
+/// Relation of the two triangles of a pair.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum How {
-    /// They intersect; in which way, if that is asked.
+    /// Intersecting, with the kind of contact if that is asked.
     Intersecting(Option<ContactKind>),
-    /// They are so close.
+    /// Within the distance asked for.
     Close(Closeness),
 }
 
-/// Between two triangles that are close to each other.
+/// Closest points of two triangles that do not intersect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
-    /// Which they are.
+    /// The pair.
     pub pair: Row,
-    /// How far apart they are; more than 0.
+    /// Distance of the triangles; more than 0.
     pub distance: f64,
-    /// A point of the one and a point of the other that are as close as that.
+    /// A closest point of each triangle.
     pub points: [[f64; 3]; 2],
 }
 
-/// How close two triangles are, where that is asked.
+/// Distance and closest points of two triangles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Closeness {
     pub(crate) distance: f64,
     pub(crate) points: [[f64; 3]; 2],
 }
 
-/// Why a search stopped.
+/// Why a search stopped early.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stop {
     /// The first pair was found.
     First,
-    /// The list would be longer than it may be.
+    /// The list reached its limit.
     Full,
-    /// There are more than are counted.
+    /// More pairs than are counted.
     Endless,
 }
 
-/// So many pairs are counted. A small file can hold more (each of 100,000 copies of a triangle meets every other), but none that
-/// anybody would look at, and to find them all would take hours.
+/// Most pairs that are counted in a frame.
+///
+/// A small file can hold more: each of 100,000 copies of a triangle meets every other. Nobody would
+/// look at them, and finding them all would take hours.
 pub(crate) const MOST_COUNTED: usize = 1 << 31;
 
-/// Takes pairs as they are found.
+/// Collects the pairs of a frame as they are found.
 pub(crate) struct Taker<'a> {
     found: Found,
     listed: bool,
-    /// The most that are listed.
+    /// Most pairs that are listed.
     most: usize,
-    /// Sorted; pairs that are left out.
+    /// Known pairs, sorted, which are left out.
     baseline: Option<&'a [Row]>,
     /// Whether pairs with a triangle without area are left out.
     skip_degenerate: bool,
-    /// Whether it is listed, too, where pairs are closest.
+    /// Whether closest points are listed too.
     lists_gaps: bool,
 }
 
@@ -154,26 +159,28 @@ impl<'a> Taker<'a> {
         }
     }
 
-    /// From now on leaves out pairs with a triangle without area, if `skip`.
+    /// Sets whether pairs with a triangle without area are left out.
     pub(crate) fn skip_degenerate(mut self, skip: bool) -> Self {
         self.skip_degenerate = skip;
         self
     }
 
-    /// From now on lists where pairs are closest, if `list` and they are listed.
+    /// Sets whether the closest points of listed pairs are listed too.
     pub(crate) fn list_gaps(mut self, list: bool) -> Self {
         self.lists_gaps = list;
         self
     }
 
-    /// From now on counts pairs by their kinds, if `count`.
+    /// Sets whether pairs are counted by kind.
     pub(crate) fn count_kinds(mut self, count: bool) -> Self {
         self.found.kinds = count.then(Kinds::default);
         self
     }
 
-    /// Takes a pair, or leaves it out. `degenerate`: whether a triangle of it has no area. `comparable`: whether its bodies have the meshes
-    /// that the baseline is about.
+    /// Takes a pair, or leaves it out.
+    ///
+    /// `degenerate`: whether a triangle of it has no area. `comparable`: whether its bodies have
+    /// the meshes of the baseline.
     pub(crate) fn take(
         &mut self,
         row: Row,
@@ -199,7 +206,7 @@ impl<'a> Taker<'a> {
         }
         if let Some(Closeness { distance, .. }) = closeness {
             if !found.complete {
-                // Of one pair that is asked for, the nearest: it is known when all were seen.
+                // The nearest pair is known only after all were seen.
                 let nearest = found.distance.zip(found.smallest);
                 if nearest.is_some_and(|nearest| nearest <= (distance, row)) {
                     return ControlFlow::Continue(());
@@ -245,32 +252,32 @@ impl<'a> Taker<'a> {
         if found.complete || closeness.is_some() {
             return ControlFlow::Continue(());
         }
-        // What else is left out is not known.
+        // The search stops here, so the number of left-out pairs is unknown.
         found.left_out = None;
         ControlFlow::Break(Stop::First)
     }
 
-    /// Says how many pairs it is not shown, for their places only touch.
+    /// Notes the number of pairs that are not shown, since their places only touch.
     pub(crate) fn leave_touching(&mut self, count: usize) {
         self.found.only_touching = Some(count);
     }
 
-    /// Whether pairs are counted by their kinds.
+    /// Whether pairs are counted by kind.
     pub(crate) fn counts_kinds(&self) -> bool {
         self.found.kinds.is_some()
     }
 
-    /// The most pairs that may be kept.
+    /// Most pairs that may be kept.
     pub(crate) fn most(&self) -> usize {
         self.most
     }
 
-    /// How many pairs it has taken.
+    /// Number of pairs taken.
     pub(crate) fn count(&self) -> usize {
         self.found.count
     }
 
-    /// The frame whose pairs it takes.
+    /// Number of the frame.
     pub(crate) fn frame(&self) -> usize {
         self.found.frame
     }

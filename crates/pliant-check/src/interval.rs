@@ -1,9 +1,9 @@
-//! What meets on the way from one frame to the next: vertices and triangles, and edges, that are apart in the one and meet before the other
-//! is there, every corner on a straight line.
+//! Impacts between two frames: vertices and triangles, and edges, that are apart and meet on the
+//! way.
 //!
-//! What meets in the frame already is known of it, and is only counted. Of the others the first is kept, and all where they are listed.
-//! Times are known to a millionth of the way. Those of the first that are equal in that are compared once more, to the last bit of a
-//! double; of equal ones then vertices and triangles are before edges, each in order. Of very many, those with the lowest numbers are compared.
+//! Every vertex moves on a straight line. Contacts of the first frame itself are only counted. The
+//! first impact is kept, and all where they are listed. Times are known to [`WIDTH`] of the way.
+//! Ties for the first are compared again to the last bit, then by kind and number.
 
 use crate::found::{MOST_COUNTED, Stop};
 use crate::sequence::Sequence;
@@ -13,50 +13,59 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::ops::ControlFlow;
 
-/// How wide the interval of a time is at most.
+/// Largest width of an impact's time interval, in units of the way between two frames.
 pub(crate) const WIDTH: f64 = 1e-6;
 
-/// So many that are equally early are compared.
+/// Most equally early impacts that are compared again, which bounds memory. Of more, those with the
+/// lowest numbers are.
 const MOST_COMPARED: usize = 1 << 16;
 
-/// What meets on the way from a frame to the next that is checked.
+/// Impacts on the way from a frame to the next that is checked.
 ///
 /// Time is 0 in the frame and 1 in the next; in between every vertex moves on a straight line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interval {
-    /// The frame.
+    /// Number of the frame.
     pub frame: usize,
-    /// The next that is checked.
+    /// Number of the next checked frame.
     pub until: usize,
-    /// The bodies that have another mesh there, ascending. Where there are any nothing moves on straight lines, nothing was looked for, and the rest
-    /// of this says nothing.
+    /// Bodies whose mesh differs in the next frame, ascending.
+    ///
+    /// If there are any, nothing moves on straight lines. Then nothing was searched, and the other
+    /// fields say nothing.
     pub changed: Vec<u32>,
-    /// How many pairs of elements are apart in the frame and meet on the way, the end included; at most one if only the first was asked for.
+    /// Number of impacts; at most one if only the first was asked for.
+    ///
+    /// An impact is a pair of elements, apart in the frame, that meet on the way or at its end.
     pub count: usize,
-    /// How many others meet in the frame already.
+    /// Number of pairs of elements that meet in the frame already.
     pub at_start: usize,
-    /// The one of them that meets first.
+    /// The first impact; of equal times a vertex and a triangle is before two edges, then the lower
+    /// numbers.
     pub first: Option<FirstImpact>,
-    /// All vertices and triangles of them, sorted: body and vertex, body and triangle. None where they are not listed.
+    /// Impacts of vertices and triangles, sorted: body and vertex, body and triangle. Empty if not
+    /// listed.
     pub vertex_triangle: Vec<Impact<4>>,
-    /// All edges of them, sorted: body and two vertices, twice, the smaller first in an edge and of the two. None where they are not listed.
+    /// Impacts of edges, sorted: body and two vertices, for either edge. Empty if not listed.
+    ///
+    /// The smaller vertex is first in an edge, and the smaller edge in a pair.
     pub edge_edge: Vec<Impact<6>>,
-    /// Whether these are all; not if only the first was asked for.
+    /// Whether these are all impacts; false if only the first was asked for.
     pub complete: bool,
 }
 
-/// Two elements that meet on the way.
+/// Impact of two elements, with an interval of its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact<const N: usize> {
-    /// Which they are.
+    /// The pair of elements.
     pub pair: [u32; N],
-    /// They are apart up to here.
+    /// Lower bound of the time: they are apart up to here.
     pub low: f64,
-    /// They have met when it is that late; at most a millionth after `low`.
+    /// Upper bound of the time: they have met. At most a millionth after `low`.
     pub high: f64,
 }
 
-/// What meets first.
+/// First impact between two frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FirstImpact {
     /// A vertex and a triangle: body, vertex, body, triangle.
@@ -66,7 +75,7 @@ pub enum FirstImpact {
 }
 
 impl FirstImpact {
-    /// When they have met, at the latest.
+    /// Upper bound of the time of impact, from 0 to 1.
     pub fn time(&self) -> f64 {
         match self {
             Self::VertexTriangle(impact) => impact.high,
@@ -76,7 +85,7 @@ impl FirstImpact {
 }
 
 impl Interval {
-    /// An interval in which nothing was looked for.
+    /// An interval that was not searched.
     pub(crate) fn none(frame: usize, until: usize, changed: Vec<u32>) -> Self {
         Self {
             frame,
@@ -92,26 +101,28 @@ impl Interval {
     }
 }
 
-/// Two elements, as the library finds them. Of sources or of bodies: body and vertex, body and triangle; or body and edge, twice.
+/// A pair of elements as the library finds it, of sources or of bodies.
+///
+/// Body and vertex, body and triangle; or body and edge, twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Elements {
+pub(crate) enum ElementPair {
     VertexTriangle([u32; 4]),
     EdgeEdge([u32; 4]),
 }
 
-impl From<VertexTriangle> for Elements {
+impl From<VertexTriangle> for ElementPair {
     fn from(pair: VertexTriangle) -> Self {
         Self::VertexTriangle(pair.into())
     }
 }
 
-impl From<EdgeEdge> for Elements {
+impl From<EdgeEdge> for ElementPair {
     fn from(pair: EdgeEdge) -> Self {
         Self::EdgeEdge(pair.into())
     }
 }
 
-impl From<pliant::Impact> for Elements {
+impl From<pliant::Impact> for ElementPair {
     fn from(impact: pliant::Impact) -> Self {
         match impact {
             pliant::Impact::VertexTriangle(impact) => impact.pair.into(),
@@ -120,16 +131,16 @@ impl From<pliant::Impact> for Elements {
     }
 }
 
-/// Takes what meets as it is found.
+/// Collects impacts as they are found.
 pub(crate) struct ImpactTaker {
     found: Interval,
     listed: bool,
-    /// The most that are listed.
+    /// Most impacts that are listed.
     most: usize,
-    /// The interval of the earliest.
+    /// Time interval of the earliest impacts.
     cell: [f64; 2],
-    /// Those that meet in it.
-    earliest: Vec<Elements>,
+    /// Impacts in `cell`.
+    earliest: Vec<ElementPair>,
 }
 
 impl ImpactTaker {
@@ -145,8 +156,8 @@ impl ImpactTaker {
         }
     }
 
-    /// Takes two elements of bodies that are apart up to `low` and have met at `high`.
-    pub(crate) fn take(&mut self, pair: Elements, [low, high]: [f64; 2]) -> ControlFlow<Stop> {
+    /// Takes two elements that are apart up to `low` and have met at `high`.
+    pub(crate) fn take(&mut self, pair: ElementPair, [low, high]: [f64; 2]) -> ControlFlow<Stop> {
         let found = &mut self.found;
         if found.count + found.at_start >= MOST_COUNTED {
             return ControlFlow::Break(Stop::Endless);
@@ -172,16 +183,16 @@ impl ImpactTaker {
         }
         let (vertices, edges) = (&mut found.vertex_triangle, &mut found.edge_edge);
         let has_room = match pair {
-            Elements::VertexTriangle(_) => vertices.try_reserve(1).is_ok(),
-            Elements::EdgeEdge(_) => edges.try_reserve(1).is_ok(),
+            ElementPair::VertexTriangle(_) => vertices.try_reserve(1).is_ok(),
+            ElementPair::EdgeEdge(_) => edges.try_reserve(1).is_ok(),
         };
         if !has_room || vertices.len() + edges.len() >= self.most {
             return ControlFlow::Break(Stop::Full);
         }
         match pair {
-            Elements::VertexTriangle(pair) => vertices.push(Impact { pair, low, high }),
-            // Their vertices are looked up at the end.
-            Elements::EdgeEdge([body_a, a, body_b, b]) => edges.push(Impact {
+            ElementPair::VertexTriangle(pair) => vertices.push(Impact { pair, low, high }),
+            // The edges' vertices are looked up at the end.
+            ElementPair::EdgeEdge([body_a, a, body_b, b]) => edges.push(Impact {
                 pair: [body_a, a, a, body_b, b, b],
                 low,
                 high,
@@ -190,7 +201,8 @@ impl ImpactTaker {
         ControlFlow::Continue(())
     }
 
-    /// What was found of a sequence that is moving; `source_of` is the source of a body.
+    /// The impacts found. The sequence still has its motion; `source_of` returns the source of a
+    /// body.
     pub(crate) fn end(
         self,
         sequence: &Sequence,
@@ -228,10 +240,10 @@ impl ImpactTaker {
             };
             found.first = match first {
                 None => None,
-                Some(Elements::VertexTriangle(pair)) => {
+                Some(ElementPair::VertexTriangle(pair)) => {
                     Some(FirstImpact::VertexTriangle(Impact { pair, low, high }))
                 }
-                Some(Elements::EdgeEdge(pair)) => {
+                Some(ElementPair::EdgeEdge(pair)) => {
                     let pair = edges(pair)?;
                     Some(FirstImpact::EdgeEdge(Impact { pair, low, high }))
                 }
@@ -253,18 +265,18 @@ impl ImpactTaker {
     }
 }
 
-/// When elements of bodies first meet, to the last bit, in the same order.
+/// Times of impact of pairs of bodies, to the last bit, in the order of `pairs`.
 fn times<S: Scalar>(
     world: &World<S>,
     source_of: &impl Fn(u32) -> usize,
-    pairs: &[Elements],
+    pairs: &[ElementPair],
 ) -> Result<Vec<f64>, pliant::Error> {
-    // Of each source where it is and where it goes.
+    // Start and end positions of each source.
     let mut shapes: BTreeMap<u32, [Vec<[S; 3]>; 2]> = BTreeMap::new();
     let mut corners: [[Vec<[[S; 3]; 4]>; 2]; 2] = Default::default();
     for pair in pairs {
-        let (Elements::VertexTriangle([body_a, _, body_b, _])
-        | Elements::EdgeEdge([body_a, _, body_b, _])) = *pair;
+        let (ElementPair::VertexTriangle([body_a, _, body_b, _])
+        | ElementPair::EdgeEdge([body_a, _, body_b, _])) = *pair;
         let sources = [body_a, body_b].map(|body| source_of(body) as u32);
         for source in sources {
             if let Entry::Vacant(new) = shapes.entry(source) {
@@ -277,11 +289,11 @@ fn times<S: Scalar>(
         let [a, b] = sources.map(|source| &shapes[&source]);
         let [id_a, id_b] = sources.map(BodyId);
         let (kind, vertices) = match *pair {
-            Elements::VertexTriangle([_, vertex, _, triangle]) => {
+            ElementPair::VertexTriangle([_, vertex, _, triangle]) => {
                 let [p, q, r] = world.triangles(id_b)?[triangle as usize];
                 (0, [(a, vertex), (b, p), (b, q), (b, r)])
             }
-            Elements::EdgeEdge([_, one, _, other]) => {
+            ElementPair::EdgeEdge([_, one, _, other]) => {
                 let [p, q] = world.edges(id_a)?[one as usize];
                 let [r, s] = world.edges(id_b)?[other as usize];
                 (1, [(a, p), (a, q), (b, r), (b, s)])
@@ -298,8 +310,8 @@ fn times<S: Scalar>(
     let time =
         |cell: Option<Option<[f64; 2]>>| cell.flatten().map_or(f64::INFINITY, |[_, high]| high);
     let times = pairs.iter().map(|pair| match pair {
-        Elements::VertexTriangle(_) => time(vertices.next()),
-        Elements::EdgeEdge(_) => time(edges.next()),
+        ElementPair::VertexTriangle(_) => time(vertices.next()),
+        ElementPair::EdgeEdge(_) => time(edges.next()),
     });
     Ok(times.collect())
 }
@@ -312,8 +324,8 @@ mod tests {
     fn of_very_many_equally_early_ones_the_lowest_are_compared() {
         let mut taker = ImpactTaker::new(0, 1, false, false, 0);
         let count = 5 * MOST_COMPARED as u32;
-        let pair = |number: u32| Elements::EdgeEdge([0, number, 1, 0]);
-        // A later one first, then all in an order in which the lowest are neither first nor last.
+        let pair = |number: u32| ElementPair::EdgeEdge([0, number, 1, 0]);
+        // A later one first, then an order in which the lowest are neither first nor last.
         assert!(taker.take(pair(0), [0.75, 1.0]).is_continue());
         for number in 0..count {
             let number = (number * 7 + count / 2) % count;
@@ -338,7 +350,7 @@ mod tests {
     fn no_more_is_counted_than_anybody_waits_for() {
         let mut taker = ImpactTaker::new(0, 1, false, false, 0);
         taker.found.at_start = MOST_COUNTED - 1;
-        let pair = Elements::VertexTriangle([0; 4]);
+        let pair = ElementPair::VertexTriangle([0; 4]);
         assert!(taker.take(pair, [0.0, 0.5]).is_continue());
         assert_eq!(
             taker.take(pair, [0.0; 2]),

@@ -1,8 +1,8 @@
-//! Sequences of meshes checked frame by frame: which triangles of which bodies intersect.
+//! Intersections between the triangles of mesh sequences, checked frame by frame.
 //!
-//! A [`Check`] reads *sources*, files or patterns of files as `pliant_io` opens them, side by side, brings a world to each frame
-//! and says what intersects. The program `pliant check` and Python's `pliant.check` print and hand out what it finds.
-//!
+//! A *source* is a sequence of meshes: a file or a pattern of files, as `pliant_io` opens it. A
+//! [`Check`] reads sources side by side, brings a world to each frame and returns its intersecting
+//! pairs. The program `pliant check` and Python's `pliant.check` are layers over it.
 //! ```
 //! # let folder = format!("pliant-check-front-page-{}", std::process::id());
 //! # let folder = std::env::temp_dir().join(folder);
@@ -12,7 +12,8 @@
 //! #     std::fs::write(folder.join(name), corners + "f 1 2 3\n")?;
 //! # }
 //! # std::fs::write(folder.join("ground.obj"), "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n")?;
-//! # let arguments = ["wing_*.obj", "ground.obj"].map(|name| folder.join(name).display().to_string());
+//! # let arguments = ["wing_*.obj", "ground.obj"];
+//! # let arguments = arguments.map(|name| folder.join(name).display().to_string());
 //! use pliant_check::{Check, Settings};
 //! use pliant_io::OpenOptions;
 //!
@@ -23,40 +24,43 @@
 //! let mut pairs = Vec::new();
 //! while let Some(found) = check.next_frame()? {
 //!     pairs.push(found.pairs);
-//!     // What hangs together, the most pairs first; a place keeps its number from frame to frame while it lives.
+//!     // A place is a connected region of contact. It keeps its number from frame to frame.
 //!     for place in found.places.into_iter().flatten() {
 //!         assert_eq!((place.number, place.count, place.first_pair), (0, 1, [0, 0, 1, 0]));
 //!     }
 //! }
-//! // In the second frame triangle 0 of body 0 and triangle 0 of body 1.
+//! // Triangle 0 of body 0 meets triangle 0 of body 1 in the second frame.
 //! assert_eq!(pairs, [vec![], vec![[0, 0, 1, 0]]]);
-//! // Of the whole check: how many places there were, and the lives of the largest.
+//! // The number of places in the whole check; the second value has the lives of the largest.
 //! assert_eq!(check.places().0, 1);
 //! # std::fs::remove_dir_all(&folder)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! What always holds: only the frame being checked is in memory; no clock is read and nothing is printed; the same sources and
-//! settings give the same answers for any number of threads.
+//! Invariants:
+//!
+//! - Only the frame being checked is in memory.
+//! - No clock is read and nothing is printed.
+//! - The same sources and settings give the same answers for any number of threads.
 //!
 //! # Map
 //!
 //! | file | idea |
 //! |---|---|
-//! | `settings.rs` | what is asked |
-//! | `check.rs` | the loop |
-//! | `opened.rs` | what arguments name |
-//! | `sequence.rs`, `any_world.rs` | sources side by side; the world, of either precision, in a frame of theirs |
-//! | `bodies.rs`, `pieces.rs` | what an answer calls a body; pieces of a mesh |
-//! | `filter.rs` | names and groups; who may meet whom |
-//! | `row.rs`, `found.rs`, `remarks.rs` | a pair; those of one frame; what is to be said of them |
-//! | `interval.rs`, `elements.rs` | what meets on the way from a frame to the next; whose vertices and edges are |
-//! | `union_find.rs` | sets of numbers that are joined |
-//! | `joined.rs`, `places.rs`, `lives.rs` | vertices that hits join; places, the same from frame to frame; their lives |
-//! | `touching.rs` | places where surfaces touch, and none passes through another |
-//! | `baseline.rs` | the pairs of an earlier check, which are left out |
-//! | `one_point.rs` | what cannot be checked for the number of pairs |
-//! | `error.rs` | one type, one line |
+//! | `settings.rs` | settings: the question that a check answers |
+//! | `check.rs` | the loop over frames |
+//! | `opened.rs` | arguments, opened as sources |
+//! | `sequence.rs`, `any_world.rs` | sources side by side; their world, of either precision |
+//! | `bodies.rs`, `pieces.rs` | bodies of answers; connected components of a mesh |
+//! | `filter.rs` | names and groups; which bodies may meet |
+//! | `row.rs`, `found.rs`, `remarks.rs` | a pair; the pairs of a frame; remarks about seams |
+//! | `interval.rs`, `elements.rs` | impacts between two frames; owners of vertices and edges |
+//! | `union_find.rs` | union-find over numbers |
+//! | `joined.rs`, `places.rs`, `lives.rs` | vertices joined by hits; places; their lives |
+//! | `touching.rs` | places where surfaces only touch |
+//! | `baseline.rs` | pairs of an earlier check, which are left out |
+//! | `one_point.rs` | refusal of too many coincident point triangles |
+//! | `error.rs` | errors, each a message of one line |
 
 mod any_world;
 mod baseline;

@@ -1,45 +1,45 @@
-//! The lives of places: from which frame to which, and what each was where it was largest.
+//! Lives of places: first frame, last frame, and the place when it was largest.
 //!
-//! However many frames there are, memory is bounded: of places that have ended those with the most pairs are kept, a thousand,
-//! and the others are counted.
+//! Memory is bounded for any number of frames. Of ended places the thousand with the most pairs are
+//! kept, the others only counted.
 
 use crate::places::Place;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// So many places that have ended are kept: nobody reads more.
+/// Most ended places that are kept; nobody reads more.
 pub(crate) const MOST_KEPT: usize = 1000;
 
-/// A place, from its first frame to its last.
+/// The life of a place, from its first frame to its last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Life {
-    /// The first frame that has it.
+    /// First frame with the place.
     pub first_frame: usize,
-    /// The last so far.
+    /// Last frame so far with the place.
     pub last_frame: usize,
-    /// The first frame in which it has the most pairs.
+    /// First frame in which the place has its most pairs.
     pub worst_frame: usize,
-    /// What it is there.
+    /// The place in `worst_frame`.
     pub worst: Place,
 }
 
-/// All places of a check.
+/// Lives of all places of a check.
 #[derive(Debug, Default)]
 pub struct Lives {
-    /// Those of the last frame, by number.
+    /// Places of the last frame, by number.
     living: BTreeMap<usize, Life>,
     ended: Vec<Life>,
-    /// How many places there were.
+    /// Number of places so far, kept or not.
     count: usize,
 }
 
 impl Lives {
-    /// None yet.
+    /// Without any places.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Takes the places of the next frame.
+    /// Takes the places of the next frame. O(p log p) for p places, amortised.
     pub fn take(&mut self, frame: usize, places: &[Place]) {
         let mut before = std::mem::take(&mut self.living);
         for place in places {
@@ -65,13 +65,14 @@ impl Lives {
         }
     }
 
-    /// How many places there were so far.
+    /// Number of places so far.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// The places so far, those with the most pairs in a frame first, of equally many the lower number first; of very
-    /// many, a thousand.
+    /// Lives of the places so far, at most a thousand, the most pairs in a frame first.
+    ///
+    /// Of equally many pairs, the lower number is first.
     pub fn largest(&self) -> Vec<Life> {
         let mut all = self.ended.clone();
         all.extend(self.living.values().cloned());

@@ -1,13 +1,18 @@
-//! Triangles that are points, very many of them at one place: a sparse file of a gigabyte that takes a kilobyte on the disk holds
-//! twenty million. Each meets every other, so the answer grows by the square, and is known before it is looked for.
+//! Refuses meshes with very many triangles that are one and the same point.
+//!
+//! Each of them meets every other, so the number of pairs grows with the square. A sparse file that
+//! takes a kilobyte on disk can hold twenty million such triangles. So they are counted before
+//! pairs are looked for.
 
 use crate::error::Error;
 use pliant_io::{Body as Source, Positions};
 
-/// So many may be at one place: more than two thousand million pairs.
+/// Most point triangles at one place; more have over two thousand million pairs.
 const MOST: usize = 1 << 16;
 
-/// Refuses a source, the first frame of which is there, with more.
+/// Refuses the current frame of a source if more than [`MOST`] triangles are the same point.
+///
+/// O(t) for t triangles, and O(p log p) for p point triangles.
 pub(crate) fn check(source: &Source) -> Result<(), Error> {
     let (triangles, positions) = (source.triangles(), source.positions());
     let place = |vertex: u32| bits(positions, vertex);
@@ -37,7 +42,7 @@ pub(crate) fn check(source: &Source) -> Result<(), Error> {
     }
 }
 
-/// A place, as bits that are equal where the numbers are: -0 counts as 0.
+/// Bits of a position, equal where the coordinates are equal: -0 counts as 0.
 fn bits(positions: Positions<'_>, vertex: u32) -> [u64; 3] {
     positions.get(vertex).map(|value| (value + 0.0).to_bits())
 }

@@ -1,8 +1,9 @@
-//! What arguments name, as sources; and which groups of a source are asked for.
+//! Arguments opened as sources, and the groups of a source that are asked for.
 //!
-//! Arguments that name groups of one OBJ file, `scan.obj#arm` and `scan.obj#leg`, are one source, the whole file, of which only these
-//! groups take part. So what is known of a mesh holds across its groups: seams are welded, and triangles that share a vertex are left
-//! out. The source stands where the first of them does, and is called as that one calls the file.
+//! Arguments that name groups of one OBJ file, `scan.obj#arm` and `scan.obj#leg`, are one source.
+//! It is the whole file, of which only these groups take part. So seams are welded, and triangles
+//! that share a vertex are left out, across its groups. The source has the position of the first
+//! such argument, and its spelling of the file's name.
 
 use crate::error::Error;
 use pliant_io::{Body as Source, group_argument};
@@ -10,15 +11,16 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::path::{Path, PathBuf};
 
-/// Sources, and what is asked of each.
+/// Sources, and the groups that are asked of each.
 pub(crate) struct Opened {
     pub(crate) sources: Vec<Source>,
-    /// Of a source of which only some groups take part, their names.
+    /// Names of the groups that take part, by source. A source without an entry takes part as a
+    /// whole.
     pub(crate) named: BTreeMap<usize, Vec<String>>,
 }
 
 impl Opened {
-    /// Sources all of which take part.
+    /// Sources that take part as a whole.
     pub(crate) fn whole(sources: Vec<Source>) -> Self {
         Self {
             sources,
@@ -26,21 +28,21 @@ impl Opened {
         }
     }
 
-    /// Opens what `arguments` name.
+    /// Opens the files that `arguments` name.
     pub(crate) fn of(
         arguments: &[String],
         mut open: impl FnMut(&String) -> Result<Vec<Source>, pliant_io::Error>,
     ) -> Result<Self, Error> {
         let mut opened = Self::whole(Vec::new());
-        // Files of which groups are named, with the numbers of their sources.
+        // Sources of the files whose groups are named.
         let mut files: BTreeMap<PathBuf, usize> = BTreeMap::new();
         for argument in arguments {
             let Some((file, name)) = group_argument(argument) else {
                 opened.sources.extend(open(argument)?);
                 continue;
             };
-            let place = place(file);
-            let source = match files.entry(place) {
+            let path = canonical_path(file);
+            let source = match files.entry(path) {
                 Entry::Occupied(known) => *known.get(),
                 Entry::Vacant(new) => {
                     let source = *new.insert(opened.sources.len());
@@ -58,8 +60,8 @@ impl Opened {
     }
 }
 
-/// The same for every way to name a file, or a pattern in a folder.
-fn place(file: &str) -> PathBuf {
+/// Canonical path of a file, or of a pattern in a folder: equal for every spelling of it.
+fn canonical_path(file: &str) -> PathBuf {
     let path = Path::new(file);
     let in_folder = || {
         let folder = match path.parent()? {

@@ -1,38 +1,39 @@
-//! Pieces of a mesh: the connected ones, or those that somebody names.
+//! Pieces of a mesh: its connected components by union-find, or given sets of triangles.
 //!
-//! Triangles that share a vertex are of one connected piece. Vertices are joined along every triangle (union-find, the smallest leads); pieces are numbered as their first triangles come.
-//! Takes eight bytes a vertex while it works, and keeps four a triangle and twelve a piece: a mesh of 100,000 single triangles is
-//! no danger. Pieces that are named take as much.
+//! Triangles that share a vertex are of one connected piece. They are numbered in the order of
+//! their first triangles. Memory: eight bytes a vertex while pieces are found; then four a triangle
+//! and twelve a piece. Given sets take as much. So a mesh of 100,000 single triangles is no danger.
 
 use crate::union_find::{find, join};
 
-/// The number of no piece: there are fewer vertices, and fewer triangles.
+/// Sentinel for no piece. Never a number of a vertex, triangle or piece.
 pub(crate) const NONE: u32 = u32::MAX;
 
-/// The pieces of one mesh.
+/// Pieces of one mesh.
 #[derive(Debug, Default)]
 pub(crate) struct Pieces {
-    /// For each triangle the number of its piece, or [`NONE`].
+    /// Piece of each triangle, or [`NONE`].
     pub(crate) of_triangles: Vec<u32>,
     pub(crate) all: Vec<Piece>,
 }
 
-/// One connected piece.
+/// Facts about one piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Piece {
-    /// Vertices that its triangles use.
+    /// Number of vertices of its triangles.
     pub(crate) vertices: u32,
     pub(crate) triangles: u32,
     pub(crate) first_triangle: u32,
 }
 
 impl Pieces {
-    /// Every corner is below `vertices`.
+    /// Finds the connected components. Every corner is below `vertices`. Amortised O(t log v) for t
+    /// triangles and v vertices.
     pub(crate) fn of(triangles: &[[u32; 3]], vertices: usize) -> Self {
-        let mut leader: Vec<u32> = (0..vertices as u32).collect();
+        let mut parents: Vec<u32> = (0..vertices as u32).collect();
         for &[a, b, c] in triangles {
-            join(&mut leader, a, b);
-            join(&mut leader, b, c);
+            join(&mut parents, a, b);
+            join(&mut parents, b, c);
         }
         let mut piece_of_vertex = vec![NONE; vertices];
         let mut pieces = Self {
@@ -40,8 +41,8 @@ impl Pieces {
             all: Vec::new(),
         };
         for (&[a, b, c], triangle) in triangles.iter().zip(0..) {
-            let lead = find(&mut leader, a);
-            let mut number = piece_of_vertex[lead as usize];
+            let root = find(&mut parents, a);
+            let mut number = piece_of_vertex[root as usize];
             if number == NONE {
                 number = pieces.all.len() as u32;
                 pieces.all.push(Piece {
@@ -52,7 +53,7 @@ impl Pieces {
             }
             let piece = &mut pieces.all[number as usize];
             piece.triangles += 1;
-            for vertex in [lead, a, b, c] {
+            for vertex in [root, a, b, c] {
                 let of_vertex = &mut piece_of_vertex[vertex as usize];
                 piece.vertices += u32::from(*of_vertex == NONE);
                 *of_vertex = number;
@@ -62,7 +63,8 @@ impl Pieces {
         pieces
     }
 
-    /// So many pieces, whose triangles are given; each has one. Every corner is below `vertices`.
+    /// Makes `count` pieces from the piece of each triangle, or [`NONE`]. Every corner is below
+    /// `vertices`.
     pub(crate) fn named(
         of_triangles: Vec<u32>,
         count: usize,
@@ -75,7 +77,7 @@ impl Pieces {
             first_triangle: 0,
         };
         let mut all = vec![none; count];
-        // Piece by piece: then a vertex is one more for its piece unless the last that used it was the same.
+        // In the order of pieces a vertex counts once, unless its last use was by the same piece.
         let mut order: Vec<u32> = (0..of_triangles.len() as u32).collect();
         order.retain(|&triangle| of_triangles[triangle as usize] != NONE);
         order.sort_unstable_by_key(|&triangle| (of_triangles[triangle as usize], triangle));
@@ -105,7 +107,7 @@ mod tests {
 
     #[test]
     fn pieces_are_numbered_by_their_lowest_triangle() {
-        // Two triangles that share an edge, around them one that shares a vertex with none, and a point.
+        // Two triangles that share an edge, between one that shares no vertex, and a point.
         let pieces = Pieces::of(&[[7, 8, 9], [3, 2, 1], [2, 1, 0], [5, 5, 5]], 12);
         assert_eq!(pieces.of_triangles, [0, 1, 1, 2]);
         let facts = |piece: &Piece| (piece.vertices, piece.triangles, piece.first_triangle);
@@ -126,12 +128,14 @@ mod tests {
             triangles in prop::collection::vec(([0..9_u32, 0..9, 0..9], 0..5_u32), 1..25),
         ) {
             let (triangles, numbers): (Vec<_>, Vec<_>) = triangles.into_iter().unzip();
-            // The last number is that of no piece.
-            let numbers: Vec<u32> = numbers.into_iter().map(|n| if n == 4 { NONE } else { n }).collect();
+            // 4 stands for no piece.
+            let numbers = numbers.into_iter().map(|n| if n == 4 { NONE } else { n });
+            let numbers: Vec<u32> = numbers.collect();
             let pieces = Pieces::named(numbers.clone(), 4, &triangles, 9);
             prop_assert_eq!(&pieces.of_triangles, &numbers);
             for (number, piece) in (0..).zip(&pieces.all) {
-                let own: Vec<usize> = (0..numbers.len()).filter(|&t| numbers[t] == number).collect();
+                let own = (0..numbers.len()).filter(|&t| numbers[t] == number);
+                let own: Vec<usize> = own.collect();
                 let vertices: BTreeSet<u32> = own.iter().flat_map(|&t| triangles[t]).collect();
                 prop_assert_eq!(piece.vertices as usize, vertices.len());
                 prop_assert_eq!(piece.triangles as usize, own.len());
@@ -139,9 +143,11 @@ mod tests {
             }
         }
 
-        /// Against growing a piece from a triangle until nothing more touches it.
+        /// Compares with growing a piece from a triangle until nothing more touches it.
         #[test]
-        fn pieces_are_what_can_be_reached(triangles in prop::collection::vec([0..40_u32, 0..40, 0..40], 1..25)) {
+        fn pieces_are_what_can_be_reached(
+            triangles in prop::collection::vec([0..40_u32, 0..40, 0..40], 1..25),
+        ) {
             let pieces = Pieces::of(&triangles, 40);
             prop_assert_eq!(pieces.of_triangles.len(), triangles.len());
             for start in 0..triangles.len() {
@@ -161,11 +167,13 @@ mod tests {
                 }
                 let mine = touched(&reached);
                 let number = pieces.of_triangles[start];
-                let same: Vec<_> = (0..triangles.len()).filter(|&t| pieces.of_triangles[t] == number).collect();
+                let same = (0..triangles.len()).filter(|&t| pieces.of_triangles[t] == number);
+                let same: Vec<_> = same.collect();
                 prop_assert_eq!(&mine, &same);
                 let piece = pieces.all[number as usize];
-                let facts = (piece.vertices as usize, piece.triangles as usize, piece.first_triangle as usize);
-                prop_assert_eq!(facts, (reached.len(), mine.len(), mine[0]));
+                let facts = [piece.vertices, piece.triangles, piece.first_triangle];
+                let facts = facts.map(|fact| fact as usize);
+                prop_assert_eq!(facts, [reached.len(), mine.len(), mine[0]]);
             }
             let firsts: Vec<_> = pieces.all.iter().map(|piece| piece.first_triangle).collect();
             prop_assert!(firsts.is_sorted());

@@ -1,18 +1,9 @@
-//! Places: hits that hang together, and which of them are the same from frame to frame.
+//! Places: connected regions of intersecting pairs, tracked from frame to frame.
 //!
-//! Two triangles of a mesh are *neighbours* if they share a vertex of it as it is checked, after welding, whatever bodies they are of.
-//! Two pairs are of one place if a triangle of the one and a triangle of the other, of the same source, are equal or neighbours; and
-//! so on from pair to pair. A place is then a set of vertices, those of its triangles, no two places of a frame share one, and a place
-//! shares a triangle or a neighbour with one of another frame exactly if it shares a vertex with it. So pairs are joined by union-find
-//! over vertices (`joined`), as they are found and in any order: three vertices of a triangle that is new, and one step a pair. It takes
-//! four bytes a vertex and a triangle of sources that are hit, and about 60 bytes a vertex that is.
-//!
-//! **Numbers.** Places of a frame are ordered by their pairs, most first; of equally many, the one with the smaller first pair. In this
-//! order each takes the lowest number, not yet taken in this frame, of the places that it shares a vertex with in the frame before. So
-//! where places merge the lowest number goes on, and where one splits its largest part keeps the number. What finds none gets a new one,
-//! new places in the order of their first pairs. A number that is not taken is never used again. The frame before is the one
-//! looked at before, however many were passed over. A source whose mesh has changed since has no vertex in common with what it
-//! was: places go on through sources that kept theirs only.
+//! A place is a connected component of hits. Two triangles of a source are neighbours if they share
+//! a vertex after welding, whatever their bodies. Two pairs are of one place if a triangle of one
+//! equals or neighbours a triangle of the other. Union-find over vertices (`joined`) finds places,
+//! from pairs in any order. Memory: as `joined`, and about 60 bytes for each vertex of a hit.
 
 use crate::joined::{Joined, Meshes};
 use crate::pieces::NONE;
@@ -20,72 +11,93 @@ use crate::row::Row;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, HashMap};
 
-/// Hits that hang together.
+/// A connected region of intersecting pairs in one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
-    /// The same from frame to frame while the place lives; from 0.
+    /// Number of the place, from 0; the same in every frame of its life.
     pub number: usize,
-    /// How many pairs.
+    /// Number of pairs.
     pub count: usize,
-    /// The smallest of them.
+    /// The smallest pair.
     pub first_pair: Row,
-    /// Whose triangles intersect here, ascending.
+    /// Bodies whose triangles intersect here, ascending.
     pub bodies: Vec<BodyThere>,
-    /// The smallest coordinates of these triangles.
+    /// Lower corner of the bounding box of these triangles.
     pub lower: [f64; 3],
-    /// The largest.
+    /// Upper corner.
     pub upper: [f64; 3],
 }
 
-/// The triangles of a body in a place.
+/// Triangles of one body in a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BodyThere {
-    /// The body.
+    /// Number of the body.
     pub body: u32,
-    /// How many of its triangles intersect there.
+    /// Number of its triangles that intersect there.
     pub triangles: usize,
-    /// The lowest of them.
+    /// The lowest of these triangles.
     pub first_triangle: u32,
 }
 
 impl Place {
-    /// The longest side of its box.
+    /// Longest side of the bounding box.
     pub fn size(&self) -> f64 {
         let side = |axis: usize| self.upper[axis] - self.lower[axis];
         side(0).max(side(1)).max(side(2))
     }
 
-    /// The middle of its box.
+    /// Centre of the bounding box.
     pub fn centre(&self) -> [f64; 3] {
         std::array::from_fn(|axis| f64::midpoint(self.lower[axis], self.upper[axis]))
     }
 }
 
-/// Finds places, frame by frame.
+/// Finder of places, frame by frame.
+///
+/// # Numbers
+///
+/// Places share a triangle or a neighbour exactly if they share a vertex. Places of one frame share
+/// none. So vertices tell which places of two frames are the same:
+///
+/// 1. Places of a frame are ordered by their pairs, most first; of equally many, the smaller first
+///    pair is first.
+/// 2. In this order each takes the lowest free number of the places with which it shares a vertex
+///    in the frame before.
+/// 3. Places that find none get new numbers, in the order of their first pairs.
+///
+/// So the lowest number survives where places merge. Where a place splits, its largest part keeps
+/// the number. A number that nobody takes is never used again.
+///
+/// The frame before is the one looked at before, however many were skipped. A source whose mesh has
+/// changed since shares no vertex with its former self. Its places go on only through sources that
+/// kept their meshes.
 #[derive(Debug, Default)]
 pub struct Places {
     hits: Joined,
-    /// The pairs whose first triangle has this slot for its first corner: how many, and the smallest.
+    /// Number of pairs, and the smallest, whose first triangle has this slot for its first corner.
     pairs: Vec<(u32, Row)>,
-    /// Source and vertex of the places of the frame before, and their number.
+    /// Source and vertex of all vertices of places in the frame before, and the number of the
+    /// place.
     before: Vec<([u32; 2], usize)>,
     next: usize,
 }
 
 impl Places {
-    /// Nothing found yet.
+    /// Without any pairs.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Begins a frame, or begins it again: pairs since the last [`end`](Self::end) are forgotten.
+    /// Begins a frame, or begins it again: forgets pairs since the last [`end`](Self::end).
     pub fn begin(&mut self) {
         self.hits.clear();
         self.pairs.clear();
     }
 
-    /// Takes a pair of triangles of sources, and what it is in answers. Each pair of a frame is to be taken once; a triangle, or a
-    /// vertex, that the meshes have not is ignored.
+    /// Takes a pair of triangles of sources, and the same pair as it is in answers.
+    ///
+    /// Each pair of a frame is taken once. A triangle or a vertex that the meshes lack is ignored.
+    /// Amortised O(log v) for v vertices of hits.
     pub fn take(&mut self, meshes: &impl Meshes, of_sources: Row, row: Row) {
         let slot = self.hits.join(meshes, of_sources);
         let slots = self.hits.vertices().len();
@@ -98,7 +110,7 @@ impl Places {
         *smallest = row.min(*smallest);
     }
 
-    /// The sources that have another mesh than in the frame before: what is known of their vertices is forgotten.
+    /// Forgets the vertices of sources whose mesh has changed since the frame before.
     pub fn forget(&mut self, changed: &[usize]) {
         if !changed.is_empty() {
             self.before
@@ -106,14 +118,16 @@ impl Places {
         }
     }
 
-    /// The places of the pairs that were taken, most pairs first; of equally many, the smaller first pair first.
+    /// Places of the pairs taken, most pairs first; of equally many, the smaller first pair first.
+    ///
+    /// O(v log v) for v vertices of hits. Begins the next frame.
     pub fn end(&mut self, meshes: &impl Meshes) -> Vec<Place> {
-        // The smallest of a set leads it, so that its place is there before any other slot of it comes.
+        // The root is the smallest of its set, so its place exists before any other slot needs it.
         let mut found: Vec<Place> = Vec::new();
         let mut place_of = vec![0_u32; self.pairs.len()];
         for slot in 0..self.pairs.len() {
-            let leader = self.hits.leader(slot as u32) as usize;
-            if leader == slot {
+            let root = self.hits.root(slot as u32) as usize;
+            if root == slot {
                 place_of[slot] = found.len() as u32;
                 found.push(Place {
                     number: usize::MAX,
@@ -124,7 +138,7 @@ impl Places {
                     upper: [f64::NEG_INFINITY; 3],
                 });
             } else {
-                place_of[slot] = place_of[leader];
+                place_of[slot] = place_of[root];
             }
             let place = &mut found[place_of[slot] as usize];
             let (count, smallest) = self.pairs[slot];
@@ -153,9 +167,10 @@ impl Places {
         found
     }
 
-    /// Whose triangles are where.
+    /// Adds the triangles of each body to their places.
     fn say_bodies(&self, meshes: &impl Meshes, place_of: &[u32], found: &mut [Place]) {
-        // Which of its place's bodies the one of each is. Mostly they are few, but a hundred thousand pieces may meet in a place.
+        // Index of a body in its place's list. A list is mostly short, but may hold a hundred
+        // thousand pieces.
         let mut known: HashMap<[u32; 2], usize> = HashMap::new();
         let mut last = ([NONE; 2], 0);
         for &[source, triangle] in self.hits.triangles() {
@@ -183,7 +198,7 @@ impl Places {
         }
     }
 
-    /// Gives numbers to places, which are in `order`.
+    /// Numbers the places of a frame. `order` has the largest first.
     fn number(&mut self, place_of: &[u32], order: &[u32], found: &mut [Place]) {
         let mut shared: Vec<(u32, usize)> = Vec::new();
         for &([source, vertex], number) in &self.before {

@@ -1,57 +1,58 @@
-//! What the pairs of a frame have in common that their owner would want to know: triangles without area, seams that are not
-//! quite closed, and seams that part from frame to frame.
+//! Remarks about the seams of a source: seams that are nearly closed, and seams that open in later
+//! frames.
 //!
-//! Files of parts made by exact modellers often have corners that differ in the last digits where two faces meet. Then every seam is
-//! full of pairs, and none of them is what anybody looks for. Of the first frame in which a source meets itself it is counted how
-//! many pairs would be of neighbours if boundary edges that nearly coincide were one.
+//! Files of exact modellers often have vertices that differ in the last digits where two faces
+//! meet. Then every seam is full of pairs that nobody looks for. So in the first frame in which a
+//! source meets itself, its pairs at nearly closed seams are counted. These are pairs that would be
+//! neighbours if boundary edges that nearly coincide were one.
 
 use crate::row::Row;
 use pliant_io::{Body as Source, NearSeams, PartedSeams};
 use std::fmt;
 
-/// Boundary edges no further apart than this, in diagonals of the body's box, are looked for.
+/// Largest distance of boundary edges that nearly coincide, in diagonals of the body's box.
 const NEARLY: f64 = 1e-4;
 
-/// Pairs of a source with itself that lie where boundary edges nearly coincide.
+/// Pairs of a source with itself at seams that are nearly closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AtSeams {
-    /// The first frame in which the source meets itself.
+    /// First frame in which the source meets itself.
     pub frame: usize,
-    /// How many pairs there lie at such seams.
+    /// Number of pairs at such seams in that frame.
     pub pairs: usize,
-    /// Of so many.
+    /// Number of all pairs of the source with itself in that frame.
     pub of: usize,
-    /// The largest distance of vertices that would be joined, in diagonals of the source's box.
+    /// Largest distance of vertices that welding would join, in diagonals of the source's box.
     pub farthest: f64,
 }
 
-/// Seams of a source that are closed in its first frame, and open in others.
+/// Seams of a source that are closed in its first frame and open in others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parted {
-    /// In how many of the frames checked, in the first of them and in the last.
+    /// Number of checked frames with open seams.
     pub frames: usize,
-    /// The first of them.
+    /// First of these frames.
     pub first: usize,
-    /// The last of them.
+    /// Last of these frames.
     pub last: usize,
-    /// The frame in which vertices are furthest apart, in diagonals of the body's box.
+    /// Frame in which vertices are farthest apart, in diagonals of the body's box.
     pub worst: usize,
-    /// How many vertices are apart there, which, and where.
+    /// Vertices that are apart in that frame: how many, which, and where.
     pub seams: PartedSeams,
 }
 
-/// What is known of one source.
+/// Facts about the seams of one source.
 #[derive(Default)]
 struct Seams {
     frame: Option<usize>,
     pairs: usize,
     of: usize,
-    /// Of that frame; none before it was looked for, and none where there is none.
+    /// Nearly closed seams in that frame; `None` before it, or if there are none.
     near: Option<NearSeams>,
     parted: Option<Box<Parted>>,
 }
 
-/// What is known of all sources.
+/// Facts about the seams of all sources.
 #[derive(Default)]
 pub(crate) struct Remarks {
     seams: Vec<Seams>,
@@ -77,7 +78,7 @@ impl Remarks {
         }
     }
 
-    /// Takes a pair of triangles of sources, which are in that frame.
+    /// Takes a pair of triangles of sources, which are in this frame.
     pub(crate) fn take(&mut self, frame: usize, sources: &mut [Source], row: Row) {
         let [source, a, other, b] = row;
         if source != other {
@@ -87,7 +88,7 @@ impl Remarks {
         let source = &mut sources[source as usize];
         if seams.frame.is_none() {
             seams.frame = Some(frame);
-            // A source whose seams cannot be looked for has no remark.
+            // A source whose seams cannot be examined gets no remark.
             seams.near = source.near_seams(NEARLY).ok().flatten();
         }
         if seams.frame != Some(frame) {
@@ -103,7 +104,7 @@ impl Remarks {
         }
     }
 
-    /// Ends a frame, which sources are in.
+    /// Ends a frame. The sources are still in it.
     pub(crate) fn end(&mut self, frame: usize, sources: &[Source]) {
         for (known, source) in self.seams.iter_mut().zip(sources) {
             let Some(seams) = source.parted_seams() else {
@@ -126,12 +127,12 @@ impl Remarks {
         }
     }
 
-    /// The seams of a source that part.
+    /// Open seams of a source, over the frames so far.
     pub(crate) fn parted(&self, source: usize) -> Option<Parted> {
         self.seams.get(source)?.parted.as_deref().copied()
     }
 
-    /// What is to be said of a source.
+    /// Pairs at nearly closed seams of a source, if that is worth a remark.
     pub(crate) fn at_seams(&self, source: usize) -> Option<AtSeams> {
         let Seams {
             frame,
@@ -141,7 +142,7 @@ impl Remarks {
             ..
         } = self.seams.get(source)?;
         let farthest = near.as_ref()?.farthest();
-        // Edges that coincide are apart because that was asked for.
+        // Edges that coincide exactly are apart only because that was asked for.
         let is_worth_it = *pairs > 0 && farthest > 0.0;
         is_worth_it.then_some(AtSeams {
             frame: (*frame)?,
@@ -153,14 +154,15 @@ impl Remarks {
 }
 
 impl AtSeams {
-    /// A tolerance that joins them: 1, 2 or 5 times a power of ten.
+    /// Tolerance that closes these seams: 1, 2 or 5 times a power of ten.
     pub fn tolerance(&self) -> f64 {
         tolerance(self.farthest)
     }
 }
 
 impl Parted {
-    /// A tolerance that keeps together what is apart by rounding: 1e-6, or more where seams are known to be nearly closed.
+    /// Tolerance that keeps rounded vertices together: 1e-6, or more if the seams are nearly
+    /// closed.
     pub fn tolerance(&self) -> f64 {
         let farthest = self.seams.farthest;
         f64::max(
@@ -175,7 +177,7 @@ impl Parted {
 }
 
 impl fmt::Display for Parted {
-    /// What, where and when, as the end of a sentence that names the source.
+    /// Writes what is apart, where and when, as the end of a sentence that names the source.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             frames,
@@ -201,13 +203,14 @@ impl fmt::Display for Parted {
         }
         write!(
             f,
-            ": {a} and {b}, at ({x:?}, {y:?}, {z:?}), are {:.1e} of its size from each other; the seam is open there",
+            ": {a} and {b}, at ({x:?}, {y:?}, {z:?}), are {:.1e} of its size from each other; the \
+             seam is open there",
             seams.farthest
         )
     }
 }
 
-/// A tolerance that joins what is so far apart: 1, 2 or 5 times a power of ten.
+/// Tolerance that closes a gap of `farthest`: 1, 2 or 5 times a power of ten.
 fn tolerance(farthest: f64) -> f64 {
     let wanted = farthest * 1.01;
     let power = wanted.log10().floor() as i32;
@@ -219,7 +222,7 @@ fn tolerance(farthest: f64) -> f64 {
         .unwrap_or(NEARLY)
 }
 
-/// Whether any triangle of a pair has no area.
+/// Whether a triangle of a pair of sources has no area.
 pub(crate) fn has_degenerate(sources: &[Source], row: Row) -> bool {
     let [source_a, a, source_b, b] = row;
     [(source_a, a), (source_b, b)]

@@ -1,4 +1,4 @@
-//! A pair of triangles, as answers have it.
+//! Pairs of triangles in answers.
 
-/// Body, triangle, body, triangle; the smaller (body, triangle) first.
+/// A pair of triangles: body, triangle, body, triangle. The smaller (body, triangle) is first.
 pub type Row = [u32; 4];

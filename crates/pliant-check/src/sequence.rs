@@ -1,12 +1,9 @@
-//! Sources read side by side, and the world brought to a frame of theirs. In memory are the reader's frame and the world's (its
-//! shape and the one before it, whose memory the next is written into); where a source is widened to f64, that too.
+//! Sources read side by side, and a world that is brought to their frames.
 //!
-//! The mesh of a source may change from file to file, and its seams from frame to frame: the world is then given the mesh, unless it is
-//! the one that it has. Where only seams are others, triangles have the same numbers. On the way between two frames those seams are
-//! closed that are in both.
-//!
-//! Where it is asked what meets between two frames, the world is given the later one as the end of a motion, and finishes that when the frame
-//! itself is asked for: each frame is read once.
+//! The world gets a new mesh only if the mesh of a source, or its closed seams, have changed. If
+//! only seams have changed, triangles keep their numbers. Between two frames, seams are closed that
+//! are closed in both. For impacts, the later frame becomes the end of a motion, which finishes
+//! when that frame is asked for. So each frame is read once.
 
 use crate::any_world::{AnyWorld, NotTaken};
 use crate::error::Error;
@@ -15,37 +12,41 @@ use pliant::{BodyId, Options};
 use pliant_io::{Body as Source, Precision};
 use std::collections::HashMap;
 
-/// Tells meshes of a source apart, whatever seams are closed: [`Source::mesh_number`].
+/// Number of a source's mesh, whatever seams are closed: [`Source::mesh_number`].
 pub(crate) type MeshNumber = u64;
 
-/// The mesh of a source's first frame.
+/// Number of the mesh of a source's first frame.
 pub(crate) const FIRST: MeshNumber = 0;
 
-/// The sources of a check and their world. Frame counts are equal, or 1: such a source stands still while others move.
+/// Sources of a check and their world.
+///
+/// Frame counts are equal, or 1: such a source stands still while others move. In memory are the
+/// reader's frame, the world's shape and its previous one. The previous shape's memory takes the
+/// next. Sources widened to f64 take memory for that too.
 pub(crate) struct Sequence {
     pub(crate) sources: Vec<Source>,
     pub(crate) frame_count: usize,
     pub(crate) world: AnyWorld,
-    /// Positions of single precision, widened.
+    /// Scratch memory: positions widened from single precision.
     widened: Vec<[f64; 3]>,
-    /// The body of the world that each source is; empty before the first frame.
+    /// Body of the world for each source; empty before the first frame.
     pub(crate) ids: Vec<BodyId>,
-    /// The mesh of each source in the world.
+    /// Number of the mesh that the world has for each source.
     pub(crate) meshes: Vec<MeshNumber>,
-    /// How often the world was given triangles, of other meshes or with other seams.
+    /// Version of the world's triangles: incremented when a mesh or its seams change.
     pub(crate) given: usize,
-    /// The frame behind the one read last, which the sources are in.
+    /// Frame after the one that the sources are in.
     next: usize,
-    /// Whether sources that stand still were read.
+    /// Whether the sources that stand still were read.
     has_still: bool,
-    /// The frame that the world is in.
+    /// Frame that the world is in; `None` while it changes.
     shown: Option<usize>,
-    /// The frame that its bodies have a motion to.
+    /// Frame at the end of the world's motion.
     moves_to: Option<usize>,
 }
 
 impl Sequence {
-    /// Compares frame counts.
+    /// Starts before the first frame. Refuses sources whose frame counts do not match.
     pub(crate) fn new(mut sources: Vec<Source>, options: Options) -> Result<Self, Error> {
         let Some(frame_count) = sources.iter().map(Source::frame_count).max() else {
             return Err(Error::NoSources);
@@ -78,7 +79,7 @@ impl Sequence {
         })
     }
 
-    /// Brings the world to a frame: those before it are passed over, from the beginning if the frame has gone by.
+    /// Brings the world to a frame. Skips frames before it; rewinds if the frame has gone by.
     pub(crate) fn go_to(&mut self, frame: usize) -> Result<(), Error> {
         if self.shown == Some(frame) {
             return Ok(());
@@ -86,7 +87,7 @@ impl Sequence {
         self.shown = None;
         if self.moves_to.take() == Some(frame) {
             with_world!(&mut self.world, world => world.finish_motion());
-            // The seams of the way may be others.
+            // Seams of the frame may differ from the seams of the motion.
             self.give(frame)?;
         } else {
             self.read_to(frame)?;
@@ -96,40 +97,41 @@ impl Sequence {
         Ok(())
     }
 
-    /// Gives the world, which is in a frame, a motion to a later one. Where the mesh of a source is another one there, nothing moves: returns
-    /// the numbers of these sources.
+    /// Gives the world, which is in a frame, a motion to a later one.
+    ///
+    /// If meshes change on the way, nothing moves. Returns the numbers of these sources.
     pub(crate) fn move_to(&mut self, frame: usize) -> Result<Vec<usize>, Error> {
         if self.moves_to == Some(frame) {
             return Ok(Vec::new());
         }
         self.read_to(frame)?;
-        let changes = |&place: &usize| self.sources[place].mesh_number() != self.meshes[place];
+        let changes = |&number: &usize| self.sources[number].mesh_number() != self.meshes[number];
         let changed = (0..self.sources.len()).filter(changes);
         let changed: Vec<usize> = changed.collect();
         if !changed.is_empty() {
             return Ok(changed);
         }
-        for (place, source) in self.sources.iter().enumerate() {
+        for (number, source) in self.sources.iter().enumerate() {
             if source.frame_count() == 1 {
                 continue;
             }
-            if !is_mesh_of(&self.world, self.ids[place], source) {
-                let given = with_common_seams(&mut self.world, self.ids[place], source);
+            if !is_mesh_of(&self.world, self.ids[number], source) {
+                let given = with_common_seams(&mut self.world, self.ids[number], source);
                 given.map_err(|error| not_taken(error.into(), source, frame))?;
                 self.given += 1;
-                // Not as in the frame any more.
+                // The seams differ from the frame's now.
                 self.shown = None;
             }
             let taken =
                 self.world
-                    .set_motion(self.ids[place], source.positions(), &mut self.widened);
+                    .set_motion(self.ids[number], source.positions(), &mut self.widened);
             taken.map_err(|why| not_taken(why, source, frame))?;
         }
         self.moves_to = Some(frame);
         Ok(changed)
     }
 
-    /// Reads a frame of every source, unless they are in it.
+    /// Reads a frame of every source, unless the sources are in it.
     pub(crate) fn read_to(&mut self, frame: usize) -> Result<(), Error> {
         if self.next == frame + 1 {
             return Ok(());
@@ -159,21 +161,21 @@ impl Sequence {
         Ok(())
     }
 
-    /// Gives the world the frame that the sources are in. The first makes the bodies.
+    /// Gives the world the sources' current frame. The first call makes the bodies.
     fn give(&mut self, frame: usize) -> Result<(), Error> {
-        for (place, source) in self.sources.iter().enumerate() {
-            let makes = self.ids.len() == place;
+        for (number, source) in self.sources.iter().enumerate() {
+            let makes = self.ids.len() == number;
             let stands = source.frame_count() == 1;
             if !makes && stands {
                 continue;
             }
             let frame = if stands { 0 } else { frame };
             let mesh = source.mesh_number();
-            if mesh != FIRST && (makes || mesh != self.meshes[place]) {
+            if mesh != FIRST && (makes || mesh != self.meshes[number]) {
                 one_point::check(source)?;
             }
-            self.meshes[place] = mesh;
-            let keeps_mesh = !makes && is_mesh_of(&self.world, self.ids[place], source);
+            self.meshes[number] = mesh;
+            let keeps_mesh = !makes && is_mesh_of(&self.world, self.ids[number], source);
             self.given += usize::from(!keeps_mesh);
             let (triangles, positions) = (source.triangles(), source.positions());
             let Self { world, widened, .. } = self;
@@ -181,9 +183,9 @@ impl Sequence {
                 let added = world.add(triangles, positions, widened);
                 added.map(|id| self.ids.push(id))
             } else if keeps_mesh {
-                world.set_positions(self.ids[place], positions, widened)
+                world.set_positions(self.ids[number], positions, widened)
             } else {
-                world.set_mesh(self.ids[place], triangles, positions, widened)
+                world.set_mesh(self.ids[number], triangles, positions, widened)
             };
             taken.map_err(|why| not_taken(why, source, frame))?;
         }
@@ -191,7 +193,7 @@ impl Sequence {
     }
 }
 
-/// Why a frame of a source is not in the world.
+/// The error of a source whose frame the world did not take.
 fn not_taken(why: NotTaken, source: &Source, frame: usize) -> Error {
     let source_name = source.name().to_owned();
     match why {
@@ -200,12 +202,14 @@ fn not_taken(why: NotTaken, source: &Source, frame: usize) -> Error {
             frame,
             error,
         },
-        // A world is of double precision if any source is.
+        // Cannot happen: a world is of double precision if any source is.
         NotTaken::WouldBeRounded => Error::Missing { source_name, frame },
     }
 }
 
-/// Gives a body of the world, which stays where it is, the seams that are closed both in it and in the frame that its source is in.
+/// Gives a body of the world the seams that are closed both in it and in its source's frame.
+///
+/// Its positions stay.
 fn with_common_seams(
     world: &mut AnyWorld,
     id: BodyId,
@@ -213,7 +217,8 @@ fn with_common_seams(
 ) -> Result<(), pliant::Error> {
     let all = source.unwelded();
     with_world!(world, world => {
-        // Of each vertex those that stand for it in the one and in the other; of vertices with the same two the smallest stands for all.
+        // Each vertex has a welded vertex in either frame. Vertices with the same two become one:
+        // the smallest.
         let both = world.triangles(id)?.iter().zip(source.triangles());
         let both = both.flat_map(|(a, b)| std::array::from_fn::<_, 3, _>(|at| [a[at], b[at]]));
         let mut smallest: HashMap<[u32; 2], u32> = HashMap::new();
@@ -228,7 +233,7 @@ fn with_common_seams(
     })
 }
 
-/// Whether a body of the world has the mesh, and the seams, that a source has now.
+/// Whether a body of the world has its source's current mesh and seams.
 fn is_mesh_of(world: &AnyWorld, id: BodyId, source: &Source) -> bool {
     with_world!(world, world => {
         world.vertex_count(id) == Ok(source.vertex_count())

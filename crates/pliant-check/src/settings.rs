@@ -1,100 +1,139 @@
-//! What is asked.
+//! Settings of a [`Check`](crate::Check): the question that it answers.
 
 use pliant::Options;
 use std::path::PathBuf;
 
-/// What a check is asked; the default asks for all pairs of different bodies in all frames.
+/// Settings of a check. The default finds all pairs between different bodies, in all frames.
 #[derive(Clone, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a choice of its own")]
 pub struct Settings {
-    /// Each body against itself too. One body alone always is.
+    /// Checks each body against itself too. A single body always is.
     pub itself: bool,
-    /// Pairs of different bodies that are at most so far apart, intersecting ones at distance 0, instead of those that intersect. Of
-    /// one body neighbours always are that close: it cannot be asked of one alone, nor with [`itself`](Self::itself).
-    pub within: Option<f64>,
-    /// Only places in which surfaces cross, or pass through each other at edges and vertices: pairs of others, where they touch and each stays
-    /// on one closed side of the other, are left out. Along a cut for example, or where parts lie on each other. A place in which it is
-    /// not clear what a side is stays: with a triangle without area, an edge of more than two triangles, or a sheet folded onto itself. All
-    /// pairs are looked at, those that are left out for another reason too. Not with [`within`](Self::within).
-    pub crossing: bool,
-    /// Where pairs of [`within`](Self::within) are listed, so are the points in which they are closest: [`Found::gaps`](crate::Found). A
-    /// pair then takes 88 bytes of [`max_list`](Self::max_list).
-    pub closest_points: bool,
-    /// Besides what intersects in a frame, what meets on the way from it to the next that is checked:
-    /// [`Check::next_interval`](crate::Check::next_interval). Of one frame alone it cannot be asked, nor with [`within`](Self::within) or
-    /// [`baseline`](Self::baseline), whose pairs are pairs of triangles.
-    pub swept: bool,
-    /// No more than one pair in each frame; with [`within`](Self::within) the nearest. Of what meets on the way to
-    /// the next, the first.
-    pub first: bool,
-    /// Pairs are kept in a list; if not, they are only counted.
-    pub listed: bool,
-    /// The most bytes that a list of pairs may take, and again the list of those of [`baseline`](Self::baseline); a pair
-    /// takes 16, with [`crossing`](Self::crossing) 32 whether it is listed or not, and two elements that meet on the way to the next frame
-    /// take 40.
-    pub max_list: u64,
-    /// What is a body, if not each source.
-    pub split: Option<Split>,
-    /// Names for several bodies, to be used in [`ignore`](Self::ignore).
-    pub groups: Vec<Group>,
-    /// Pairs of names that do not meet: no body of the one meets any of the other. Twice the same: none of these bodies meets
-    /// another of them, or itself.
+    /// Finds pairs of different bodies at most this far apart, instead of intersecting pairs.
     ///
-    /// A name is that of a group, of a glTF file of several sources (all bodies of it), of a source (all bodies that it is split
-    /// into), of a body, of an object of an OBJ file (all groups of it that are bodies), or a body's number.
+    /// In units of the positions. An intersecting pair is at distance 0. Neighbours in a body
+    /// always are close. So a distance cannot be asked of one body alone, nor with
+    /// [`itself`](Self::itself).
+    pub within: Option<f64>,
+    /// Leaves out all pairs of places where surfaces only touch.
+    ///
+    /// Each surface then stays on one closed side of the other: along a cut, or where parts lie on
+    /// each other. Kept are places where surfaces cross, or pass through each other at edges and
+    /// vertices.
+    ///
+    /// A place is also kept where sides are not clear:
+    ///
+    /// - at a triangle without area
+    /// - at an edge of more than two triangles
+    /// - at a sheet folded onto itself
+    ///
+    /// Places are formed of all pairs of bodies that may meet, including pairs that are left out
+    /// for another reason. Not with [`within`](Self::within).
+    pub crossing: bool,
+    /// Lists the closest points of each pair within the distance, in [`Found::gaps`](crate::Found).
+    ///
+    /// Only where pairs of [`within`](Self::within) are listed. A pair then takes 88 bytes of
+    /// [`max_list`](Self::max_list).
+    pub closest_points: bool,
+    /// Also finds impacts on the way from each checked frame to the next.
+    ///
+    /// [`Check::next_interval`](crate::Check::next_interval) returns them. Needs at least two
+    /// frames. Not with [`within`](Self::within), nor with [`baseline`](Self::baseline), whose
+    /// pairs are pairs of triangles.
+    pub swept: bool,
+    /// Finds at most one pair in each frame: with [`within`](Self::within), the nearest.
+    ///
+    /// Between two frames, the first impact.
+    pub first: bool,
+    /// Keeps pairs in a list; otherwise they are only counted.
+    pub listed: bool,
+    /// Memory limit of a list of pairs, in bytes. The pairs of a [`baseline`](Self::baseline), or
+    /// its file, may take as much again.
+    ///
+    /// A pair takes 16 bytes. With [`crossing`](Self::crossing) it takes 32, listed or not. An
+    /// impact between two frames takes 40.
+    pub max_list: u64,
+    /// How sources are split into bodies. `None`: each source is a body.
+    pub split: Option<Split>,
+    /// Names for several bodies each, to be used in [`ignore`](Self::ignore).
+    pub groups: Vec<Group>,
+    /// Pairs of names whose bodies are not tested against each other.
+    ///
+    /// No body of the one name meets any of the other. A name paired with itself means that none of
+    /// its bodies meets another of them, or itself.
+    ///
+    /// A name is one of:
+    ///
+    /// - a group of [`groups`](Self::groups)
+    /// - a glTF file of several sources: all its bodies
+    /// - a source: all bodies that it is split into
+    /// - a body
+    /// - an object of an OBJ file: all its groups that are bodies
+    /// - the number of a body
     pub ignore: Vec<[String; 2]>,
-    /// Pairs that are left out in all frames, wherever both bodies have the mesh that they have there.
+    /// Known pairs, which are left out in every frame in which both bodies have the baseline's
+    /// meshes.
     pub baseline: Option<Baseline>,
-    /// Pairs with a triangle that has no area are left out. Of what meets on the way to the next frame, triangles that have none in
-    /// either frame are, and vertices and edges of such triangles only.
+    /// Leaves out pairs with a triangle that has no area.
+    ///
+    /// Between two frames, leaves out triangles without area in both frames. Vertices and edges of
+    /// such triangles only are left out too.
     pub skip_degenerate: bool,
-    /// The pairs of a frame are joined into places, which have the same numbers from frame to frame: [`Found::places`](crate::Found).
-    /// Not in frames of which only the first pair is asked for; such a frame is as if it had been passed over.
+    /// Joins the pairs of a frame into places, tracked over frames:
+    /// [`Found::places`](crate::Found).
+    ///
+    /// Frames in which only the first pair is asked for have no places. Tracking passes over them.
     pub places: bool,
-    /// Which frames are checked; all if `None`. Others are passed over, and not read where the format allows it.
+    /// Selection of frames; `None` for all. Other frames are skipped, and not read where the format
+    /// allows.
     pub frames: Option<Frames>,
-    /// How the world works. No choice changes an answer.
+    /// Options of the world. No option changes an answer.
     pub options: Options,
 }
 
-/// What a source is split into.
+/// How a source is split into bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Split {
-    /// Connected pieces: triangles that share a vertex, after welding, are of one piece. Those of `shirt.ply` are
-    /// `shirt.ply#1`, `shirt.ply#2`, … in the order of their lowest triangle.
+    /// Connected components: triangles that share a vertex, after welding, are of one piece.
+    ///
+    /// Pieces of `shirt.ply` are `shirt.ply#1`, `shirt.ply#2`, … in the order of their lowest
+    /// triangle.
     Components,
-    /// Groups of OBJ files: those of `shirt.obj` are `shirt.obj#collar`, … in the order of their lowest triangle, as
-    /// [`pliant_io::Body::groups`] names them. A source that names none is one body.
+    /// Groups of OBJ files, as [`pliant_io::Body::groups`] names them.
+    ///
+    /// Groups of `shirt.obj` are `shirt.obj#collar`, … in the order of their lowest triangle. A
+    /// source that names none is one body.
     Groups,
 }
 
-/// Pairs that are known, and left out.
+/// Known pairs, which are left out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Baseline {
-    /// Those that intersect in this frame.
+    /// Intersecting pairs of this frame.
     Frame(usize),
-    /// Those of any frame of an earlier check, as `pliant check --format json` wrote it. Its bodies are those of the same names, and
-    /// have as many triangles.
+    /// Pairs of any frame of an earlier check, as `pliant check --format json` wrote them.
+    ///
+    /// Bodies must have the same names and the same numbers of triangles as in the file.
     File(PathBuf),
 }
 
 /// A name for several bodies.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Group {
-    /// The name; not that of a body.
+    /// Name of the group; not the name of a body.
     pub name: String,
     /// Names of files, sources or bodies, or numbers of bodies.
     pub bodies: Vec<String>,
 }
 
-/// So many frames, from one on, each so many-th.
+/// An arithmetic sequence of frame numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frames {
-    /// The first.
+    /// First frame.
     pub start: usize,
-    /// From one to the next.
+    /// Difference between one frame and the next.
     pub step: usize,
-    /// How many; `usize::MAX` for all that there are from there on.
+    /// Number of frames; `usize::MAX` for all from `start` on.
     pub count: usize,
 }
 

@@ -1,29 +1,10 @@
-//! Places where surfaces touch, and none passes through another: along a cut, where parts lie on each other, where a ball rests.
+//! Places where surfaces touch but none passes through another: along a cut, or where parts lie on
+//! each other.
 //!
-//! That no two triangles of a place cross is not enough. A surface can pass through another exactly at edges and vertices: a box pushed into a
-//! block to its middle, both of unit cells. So it is asked on which side of each surface the other is.
-//!
-//! **Along segments.** Say no two triangles cross. Round a point in which two surfaces touch each is a fan of triangles, seen from there a
-//! closed curve on a sphere, and the two curves do not cross inside their arcs. One is on one closed side of the other unless it
-//! leaves it to both sides; where it leaves it, it is on it: there the surfaces have a *segment* in common. If they have none, they touch in a
-//! point, and that cannot be passed through. So only segments count: an edge of a triangle that lies partly in the inside of another triangle,
-//! or on an edge of it. (Inside both, the triangles would cross.)
-//!
-//! **Round a segment** each surface is one or two half-planes: those of the triangles at its edge, or the two halves of the one triangle it is
-//! in. Two part space into a side in front, where the normals point to, and one behind, and each half-plane of the other surface is in
-//! front, behind, or on it, which signs of orientation say exactly. A single half-plane, that of a boundary edge, parts nothing: along
-//! a cut through a sheet both surfaces end.
-//!
-//! **Along the whole contact** it has to be the same side: a sheet may come from the front, lie on another, and leave it behind. Triangles of a
-//! *patch* hang together through edges and turn the same way round, or are taken so. A place only touches if of no two patches in it, or of
-//! one and itself, one is both in front of and behind the other. A contact that hangs together lies in one patch of either surface, for all
-//! triangles round vertices that are hit are looked at, whether they are hit or not. So a surface that passes is always seen.
-//!
-//! The other way round, two contacts that have nothing to do with each other can be of one place and of the same patches, on other sides; such a
-//! place is kept, and so is one in which it is not clear what a side is: with a triangle that has no area; along an edge of more than two
-//! triangles; where a patch cannot turn one way round (a Möbius strip), or is folded onto itself.
-//!
-//! Takes up to 200 bytes a triangle round a vertex that is hit, and 32 a pair. Linear in these and in the triangles of sources that are hit.
+//! The test follows all contacts of a place and asks on which side of each surface the other is.
+//! Signs of orientation answer exactly. A place *only touches* if no two triangles cross, and of no
+//! two patches one is both in front of and behind the other. A surface that passes through another
+//! is always found. A place is also kept where sides are unclear.
 
 use crate::joined::{Joined, Meshes};
 use crate::pieces::NONE;
@@ -35,19 +16,64 @@ use std::collections::HashMap;
 
 type Point = [f64; 3];
 
-/// What it takes for a pair, besides the pair itself.
+/// Memory for a pair besides the pair itself, in bytes.
 pub(crate) const BYTES_OF_TOUCHING: usize = 16;
 
-/// Of each pair, in terms of sources, whether it is of a place where surfaces only touch. They are all pairs of a frame.
+/// Whether each pair is of a place where surfaces only touch.
+///
+/// `pairs` are all pairs of a frame, in terms of sources.
+///
+/// # Along segments
+///
+/// That no triangles cross is not enough. A surface can pass through another exactly at edges and
+/// vertices: a box pushed into a block, both of unit cells.
+///
+/// Say no two triangles cross. Around a point of contact each surface is a fan of triangles: seen
+/// from there, a closed curve on a sphere. The two curves do not cross inside their arcs. So a
+/// surface changes sides only after it lies on the other. There the two have a *segment* in common.
+/// Without a segment they touch in a point, which nothing can pass through. So only segments count.
+/// A segment is the part of a triangle's edge inside another triangle, or on an edge of it. (Inside
+/// both, the triangles would cross.)
+///
+/// # Around a segment
+///
+/// Each surface is one or two half-planes around a segment:
+///
+/// - at an edge, the half-planes of its triangles
+/// - inside a triangle, its two halves
+///
+/// Two half-planes divide space into a side in front, to which the normals point, and a side
+/// behind. Each half-plane of the other surface is in front, behind, or on the surface. A single
+/// half-plane, at a boundary edge, divides nothing: along a cut through a sheet both surfaces end.
+///
+/// # Along the whole contact
+///
+/// The side has to be the same along the whole contact. A sheet may come from the front, lie on
+/// another, and leave it behind. A *patch* is a set of triangles connected through edges, taken to
+/// turn the same way round. A connected contact lies in one patch of either surface, since all
+/// triangles around vertices of hits are examined. So a surface that passes through is always seen.
+///
+/// The reverse does not hold. Two unrelated contacts can be of one place and the same patches, on
+/// different sides. Such a place is kept.
+///
+/// # Unclear sides
+///
+/// A place is kept with a triangle without area, or along an edge of more than two triangles. It is
+/// kept where a patch cannot turn one way round (a Möbius strip), or is folded onto itself.
+///
+/// # Cost
+///
+/// Up to 200 bytes for each triangle around a vertex of a hit, and 32 for each pair. Linear time in
+/// these, and in the triangles of sources with hits.
 pub(crate) fn only_touch(meshes: &impl Meshes, pairs: &[(Row, ContactKind)]) -> Vec<bool> {
     let mut hits = Joined::default();
-    // A pair that the meshes have not is of no place, and stays.
+    // A pair that the meshes lack has no place, and is not left out.
     let mut place_of: Vec<u32> = pairs
         .iter()
         .map(|&(row, _)| hits.join(meshes, row).unwrap_or(NONE))
         .collect();
     for place in place_of.iter_mut().filter(|place| **place != NONE) {
-        *place = hits.leader(*place);
+        *place = hits.root(*place);
     }
     let mut is_kept = vec![false; hits.vertices().len()];
     let with_places = || {
@@ -77,21 +103,22 @@ fn points(meshes: &impl Meshes, source: u32, triangle: u32) -> [Point; 3] {
     corners.map(|vertex| meshes.position(source, vertex))
 }
 
-/// A place is kept: a surface passes through another there, or it is not clear what a side is.
+/// Verdict that a place is kept: a surface passes through another, or sides are unclear.
 struct Passes;
 
-/// The triangles round places that are not known to be kept, and what is known of their sides.
+/// Triangles around places that may only touch, with their patches and sides.
 struct Surfaces {
-    /// The number of each, by source and triangle.
+    /// Number of each triangle, by source and triangle.
     numbers: HashMap<[u32; 2], u32>,
-    /// By [`edge`]: all with a vertex that is hit.
+    /// Triangles at each [`edge`] with a vertex of a hit.
     edges: HashMap<[u32; 3], Faces>,
     patches: Patches,
-    /// Of a patch and one that touches it, whether the second is somewhere in front of the first, and behind it.
+    /// For a patch and one that touches it: whether the second is anywhere in front of the first,
+    /// and behind it.
     sides: HashMap<[u32; 2], [bool; 2]>,
 }
 
-/// The triangles at an edge: how many there are, and up to two of them.
+/// Triangles at an edge: their number, and up to two of them.
 #[derive(Default)]
 struct Faces {
     count: usize,
@@ -107,30 +134,30 @@ impl Faces {
     }
 }
 
-/// A half-plane, from a line on.
+/// A half-plane, bounded by a line.
 #[derive(Clone, Copy)]
 struct Half {
-    /// A point of it that is not on the line.
+    /// A point of the half-plane that is not on the line.
     apex: Point,
-    /// Whether the line runs the way in which its triangle turns.
+    /// Whether the line has the direction in which the triangle turns.
     is_forward: bool,
 }
 
-/// A surface round a segment.
+/// Surface around a segment: one or two half-planes.
 struct Around {
-    /// The number of one of its triangles.
+    /// Number of one of its triangles.
     triangle: u32,
     first: Half,
-    /// Behind a boundary edge there is none.
+    /// `None` at a boundary edge.
     second: Option<Half>,
 }
 
 impl Surfaces {
-    /// Of the places that are not kept: all triangles round their vertices.
+    /// Collects all triangles around the vertices of places that are not kept.
     fn of(meshes: &impl Meshes, hits: &mut Joined, is_kept: &[bool]) -> Self {
         let slots = 0..hits.vertices().len() as u32;
         let is_open: Vec<bool> = slots
-            .map(|slot| !is_kept[hits.leader(slot) as usize])
+            .map(|slot| !is_kept[hits.root(slot) as usize])
             .collect();
         let is_open = |source, vertex| {
             let slot = hits.slot(source, vertex);
@@ -154,7 +181,7 @@ impl Surfaces {
                 }
                 numbers.insert([source, triangle], numbers.len() as u32);
                 for (p, q) in sides_of(corners) {
-                    // Of other edges not all triangles are looked at.
+                    // Other edges do not have all their triangles here.
                     if is_open(source, p) || is_open(source, q) {
                         edges.entry(edge(source, p, q)).or_default().add(triangle);
                     }
@@ -197,7 +224,7 @@ impl Surfaces {
                             .all(|&end| pliant::exact::is_degenerate([line[0], line[1], end]))
                     });
                 let around = match along {
-                    // Edge on edge, which comes twice.
+                    // Two edges on one line come twice; the first is enough.
                     Some(edge) if own == of_a => {
                         let ends = [edge.0, edge.1].map(|it| meshes.position(other[0], it));
                         overlap(line, ends)
@@ -221,7 +248,7 @@ impl Surfaces {
         Ok(())
     }
 
-    /// The surface of a triangle round an edge of it, which lies on a line.
+    /// Surface around an edge of a triangle. The edge lies on `line`.
     fn around_edge(
         &self,
         meshes: &impl Meshes,
@@ -255,7 +282,7 @@ impl Surfaces {
         })
     }
 
-    /// Notes on which sides of a surface another is, round a line.
+    /// Notes on which sides of `base` the surface `other` is, around a line.
     fn note(&mut self, line: [Point; 2], base: &Around, other: &Around) -> Result<(), Passes> {
         let Some(second) = base.second else {
             return Ok(());
@@ -280,18 +307,20 @@ impl Surfaces {
     }
 }
 
-/// Triangles that hang together through edges, and which of them turn the other way round (union-find with parity).
+/// Patches: union-find with parity over triangles connected through edges.
+///
+/// The parity says whether two triangles turn in different directions.
 struct Patches {
-    /// A triangle of the same patch, at last the one that stands for it, and whether they turn differently.
-    leaders: Vec<(u32, bool)>,
-    /// Whether a patch, by the one that stands for it, cannot turn one way round.
+    /// Parent of each triangle, and whether the two turn differently.
+    parents: Vec<(u32, bool)>,
+    /// Whether the patch of a root cannot turn one way round.
     has_one_side: Vec<bool>,
 }
 
 impl Patches {
     fn of(count: usize) -> Self {
         Self {
-            leaders: (0..count as u32).map(|it| (it, false)).collect(),
+            parents: (0..count as u32).map(|it| (it, false)).collect(),
             has_one_side: vec![false; count],
         }
     }
@@ -299,13 +328,13 @@ impl Patches {
     fn find(&mut self, mut triangle: u32) -> (u32, bool) {
         let mut is_turned = false;
         loop {
-            let (above, turns) = self.leaders[triangle as usize];
-            if above == triangle {
+            let (parent, turns) = self.parents[triangle as usize];
+            if parent == triangle {
                 return (triangle, is_turned);
             }
-            let (next, turns_above) = self.leaders[above as usize];
-            self.leaders[triangle as usize] = (next, turns != turns_above);
-            is_turned ^= turns != turns_above;
+            let (next, parent_turns) = self.parents[parent as usize];
+            self.parents[triangle as usize] = (next, turns != parent_turns);
+            is_turned ^= turns != parent_turns;
             triangle = next;
         }
     }
@@ -316,12 +345,12 @@ impl Patches {
         if a == b {
             self.has_one_side[a as usize] |= turns;
         } else {
-            self.leaders[b as usize] = (a, turns);
+            self.parents[b as usize] = (a, turns);
             self.has_one_side[a as usize] |= self.has_one_side[b as usize];
         }
     }
 
-    /// The patch of a triangle, and whether the triangle turns against it.
+    /// Root of a triangle's patch, and whether the triangle turns against it.
     fn patch(&mut self, triangle: u32) -> Result<(u32, bool), Passes> {
         let (patch, is_turned) = self.find(triangle);
         if self.has_one_side[patch as usize] {
@@ -331,21 +360,21 @@ impl Patches {
     }
 }
 
-/// Where a half-plane is, from the view of two others on the same line.
+/// Position of a half-plane relative to two others around the same line.
 enum Sector {
-    /// On one of them.
+    /// On one of the two.
     On,
-    /// Between the first and the second, the way in which the line turns.
+    /// Between the first and the second, in the direction in which the line turns.
     Between,
     /// Between the second and the first.
     Outside,
-    /// The two are one.
+    /// Undefined, since the two are one: a fold.
     Folded,
 }
 
-/// The sector of the half-plane through `apex`.
+/// Sector of the half-plane through `apex`.
 fn sector([s, t]: [Point; 2], [first, second]: [Point; 2], apex: Point) -> Sector {
-    // Greater: from the half-plane of the one on, that of the other comes within half a turn.
+    // Greater: less than half a turn leads from the first half-plane to the second.
     let turn = |from: Point, to: Point| side_of_plane([s, t, from], to);
     let is_same = |one: Point, other: Point| {
         let beside = beside_plane([s, t, one]);
@@ -370,26 +399,27 @@ fn sector([s, t]: [Point; 2], [first, second]: [Point; 2], apex: Point) -> Secto
     }
 }
 
-/// A point that is not in the plane of a triangle with area.
+/// A point outside the plane of a triangle with area.
 fn beside_plane(triangle: [Point; 3]) -> Point {
     let moved = |axis: usize| {
         let mut point = triangle[0];
         let further = point[axis] + 1.0;
-        // A number that is so large that one more is the same is not zero.
+        // A number that adding 1 leaves unchanged is not 0.
         point[axis] = if further == point[axis] { 0.0 } else { further };
         point
     };
-    // A plane that holds all three would hold a corner of space.
+    // A plane with all three would contain a corner of space.
     let mut points = [0, 1, 2].map(moved).into_iter();
     points
         .find(|&point| side_of_plane(triangle, point) != Equal)
         .unwrap_or(triangle[0])
 }
 
-/// The halves into which a line in the plane of a triangle parts it, if a segment of the line lies partly inside; none if it does not.
+/// Halves of a triangle at a line in its plane, if the segment [s, t] of the line lies partly
+/// inside.
 ///
-/// A segment misses the inside of a convex polygon exactly if it is on the outer closed side of an edge, or the polygon on one closed side
-/// of its line.
+/// A segment misses the inside of a convex polygon in two cases. It is on the outer closed side of
+/// an edge, or the polygon is on one closed side of its line.
 fn halves(triangle: [Point; 3], [s, t]: [Point; 2]) -> Option<[Half; 2]> {
     let beside = beside_plane(triangle);
     let way = side_of_plane(triangle, beside);
@@ -411,7 +441,7 @@ fn overlap(one: [Point; 2], other: [Point; 2]) -> bool {
     one[0].max(other[0]) < one[1].min(other[1])
 }
 
-/// Whether two segments on one line run the same way.
+/// Whether two segments on one line have the same direction.
 fn is_same_way(one: [Point; 2], other: [Point; 2]) -> bool {
     let axis = main_axis(one);
     let is_up = |[a, b]: [Point; 2]| a[axis] < b[axis];
@@ -423,17 +453,17 @@ fn main_axis([s, t]: [Point; 2]) -> usize {
     (0..3).find(|&axis| s[axis] != t[axis]).unwrap_or(0)
 }
 
-/// A source, and the vertices of an edge of it, the smaller first.
+/// Key of an edge: source, smaller vertex, larger vertex.
 fn edge(source: u32, p: u32, q: u32) -> [u32; 3] {
     [source, p.min(q), p.max(q)]
 }
 
-/// The sides of a triangle, the way it turns.
+/// Directed edges of a triangle.
 fn sides_of([a, b, c]: [u32; 3]) -> [(u32, u32); 3] {
     [(a, b), (b, c), (c, a)]
 }
 
-/// Whether a triangle goes from a vertex to another, and not the other way.
+/// Whether a triangle has the directed edge `from` to `to`.
 fn runs_along(corners: [u32; 3], from: u32, to: u32) -> bool {
     sides_of(corners).contains(&(from, to))
 }

@@ -1,19 +1,19 @@
-//! Union-find over numbers: the smallest of a set leads it.
+//! Union-find over numbers, with the smallest number of a set as its root.
 //!
-//! Each number has one above it in its set, or itself if it leads.
+//! Each number has a parent in its set; a root is its own parent.
 
-/// The smallest number of the set that one is in; the way to it is halved in passing.
-pub(crate) fn find(leader: &mut [u32], mut vertex: u32) -> u32 {
-    while leader[vertex as usize] != vertex {
-        let above = leader[leader[vertex as usize] as usize];
-        leader[vertex as usize] = above;
-        vertex = above;
+/// Union-find root of `vertex`, with path halving.
+pub(crate) fn find(parents: &mut [u32], mut vertex: u32) -> u32 {
+    while parents[vertex as usize] != vertex {
+        let grandparent = parents[parents[vertex as usize] as usize];
+        parents[vertex as usize] = grandparent;
+        vertex = grandparent;
     }
     vertex
 }
 
-/// Makes one set of two.
-pub(crate) fn join(leader: &mut [u32], a: u32, b: u32) {
-    let (a, b) = (find(leader, a), find(leader, b));
-    leader[a.max(b) as usize] = a.min(b);
+/// Union of the sets of `a` and `b`. The smaller root wins.
+pub(crate) fn join(parents: &mut [u32], a: u32, b: u32) {
+    let (a, b) = (find(parents, a), find(parents, b));
+    parents[a.max(b) as usize] = a.min(b);
 }

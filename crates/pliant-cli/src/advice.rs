@@ -1,14 +1,15 @@
-//! What to do next, after a message that says only what is wrong. Messages that say it themselves get nothing.
+//! Advice on errors: what to do next, appended to messages that say only what is wrong.
 //!
-//! The libraries name no flags, since Python shows their messages too: every flag that can help is named here, or by the verb
-//! that knows what else was asked.
+//! The libraries name no flags, since Python shows their messages too. Every flag that can help is
+//! named here, or by the verb that knows what else was asked. Messages that contain their own
+//! advice get none.
 
 use crate::terminal::one_line;
 use pliant_check::Error as CheckError;
 use pliant_io::{Place, Reason};
 use std::io::{self, ErrorKind};
 
-/// All that is said of an error, wherever it is shown: what is wrong, `"; "` and what to do; in one line.
+/// Message of an error with its causes, `"; "` and the advice, in one line.
 pub(crate) fn with_advice(error: &anyhow::Error) -> String {
     one_line(&match error.chain().find_map(advice) {
         Some(advice) => format!("{error:#}; {advice}"),
@@ -26,15 +27,16 @@ fn advice(error: &(dyn std::error::Error + 'static)) -> Option<&'static str> {
     }
 }
 
-/// Of files that are read, and of those that `pliant convert` writes.
+/// Advice on errors of files that are read, and of files that `pliant convert` writes.
 fn reading(error: &pliant_io::Error) -> Option<&'static str> {
     Some(match error.reason() {
         Reason::NotFound if matches!(error.place(), Place::Part(..)) => {
             "the glTF file keeps data there: copy it along, to where that file is"
         }
-        Reason::NotFound => "the path is taken from the current folder",
+        Reason::NotFound => "check its path, which is taken from the current folder",
         Reason::NoMatch => {
-            "the pattern is taken from the current folder; `ls` with it, not quoted, shows what it matches"
+            "the pattern is taken from the current folder; \
+             `ls` with it, not quoted, shows what it matches"
         }
         Reason::Pattern(_) => "in a pattern, write [[] for the [ of a name",
         Reason::Io(_) => "see that you may read it and that its disk is there",
@@ -62,7 +64,7 @@ fn reading(error: &pliant_io::Error) -> Option<&'static str> {
         Reason::BadRate { .. } => "choose another with `--fps`",
         Reason::ClipTooLong { .. } => "ask for fewer with `--fps`",
         Reason::MeshMoves { .. } => "write it to a file with `pliant convert --frames 0`",
-        Reason::Exists => "use `--force` to write over it",
+        Reason::Exists => "choose another name, or use `--force` to write over it",
         Reason::HoldsOneFrame { .. } => {
             "name a file a frame ('name_%04d.obj'), or choose one with `--frames`"
         }
@@ -94,7 +96,8 @@ fn checking(error: &CheckError) -> Option<&'static str> {
         CheckError::NamedTwice { .. } => Some("name it once"),
         CheckError::NoClip => Some("leave out `--clip`"),
         CheckError::WithinItself => Some(
-            "name a second body, or make the pieces of this one bodies with `--split`, and leave out `--self`",
+            "name a second body, or make the pieces of this one bodies with `--split`, \
+             and leave out `--self`",
         ),
         CheckError::SweptOneFrame => Some("name a sequence of frames, or leave out `--swept`"),
         CheckError::SweptWithin => Some("leave out `--within` or `--swept`, and check twice"),
@@ -105,13 +108,14 @@ fn checking(error: &CheckError) -> Option<&'static str> {
         }
         CheckError::OnePoint { .. } => Some("mend it, or export it without them"),
         CheckError::TooManyPairs { .. } | CheckError::TooManyImpacts { .. } => Some(
-            "allow more with `--max-memory`, or ask for less with `--count` or `--first`, which keep no list without `--crossing`",
+            "allow more with `--max-memory`, or ask for less with `--count` or `--first`, \
+             which keep no list without `--crossing`",
         ),
         _ => None,
     }
 }
 
-/// Of files that the program writes; those that it reads have their own errors.
+/// Advice on errors of output files. Files that are read have errors of their own.
 fn writing(kind: ErrorKind) -> Option<&'static str> {
     match kind {
         ErrorKind::NotFound => Some("make its folder first"),

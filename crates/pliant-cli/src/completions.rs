@@ -1,4 +1,4 @@
-//! `pliant completions`: what a shell needs to complete verbs, options and their values.
+//! `pliant completions`: scripts with which a shell completes verbs, options and their values.
 
 use crate::outcome::Outcome;
 use crate::terminal::print_all;
@@ -23,7 +23,7 @@ Examples:
 
 The folder must be there; zsh needs fpath+=(~/.zfunc) before compinit in ~/.zshrc.";
 
-/// Prints the script of a shell for the program.
+/// Prints the completion script for a shell.
 pub(crate) fn print(arguments: &Arguments, program: Command) -> anyhow::Result<Outcome> {
     print_all(&script(arguments.shell, program))?;
     Ok(Outcome::Clear)

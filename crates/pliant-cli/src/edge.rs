@@ -1,15 +1,17 @@
-//! The edge of the program: a panic, which is a bug of ours or of a library's, ends as everything else that goes wrong does, in one line
-//! and exit code 2. A signal that ends it (Ctrl-C) leaves no half of a file behind; one that says that a file is too large ends nothing, for
-//! writing then fails, which is said.
+//! Panics and signals, caught at the edge of the program.
+//!
+//! A panic, a bug here or in a library, ends like any other error: in one line and exit code 2. A
+//! signal that ends the program, such as Ctrl-C, leaves no partial file behind. SIGXFSZ, sent when
+//! a file exceeds a size limit, ends nothing: the write fails, and that error is reported.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 
-/// Where the last panic was, which only the hook is told.
+/// Source location of the last panic, which only the panic hook is told.
 static PLACE: Mutex<Option<String>> = Mutex::new(None);
 
-/// From now on a panic prints nothing by itself, on any thread.
+/// Silences the output of panics on all threads, and keeps their location instead.
 pub(crate) fn be_silent() {
     std::panic::set_hook(Box::new(|panic| {
         if let (Some(place), Ok(mut last)) = (panic.location(), PLACE.lock()) {
@@ -18,19 +20,21 @@ pub(crate) fn be_silent() {
     }));
 }
 
-/// From now on Ctrl-C, and all other signals by which a program is asked to end, take away what is not whole yet and then do what they
-/// always do: whoever started the program, a loop of a shell above all, learns that a signal ended it.
+/// Removes unfinished files when a signal asks the program to end.
+///
+/// Then the signal's default action follows. So the parent, such as a loop of a shell, learns that
+/// a signal ended the program.
 #[cfg(unix)]
 pub(crate) fn clean_up_after_signals() {
     use signal_hook::consts::{
         SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ,
     };
-    // A handler that does nothing: then the system says of a write what it otherwise ends the program for.
+    // An empty handler: the system then fails the write instead of ending the program.
     let _ = signal_hook::flag::register(SIGXFSZ, std::sync::Arc::default());
     let unless_ignored = [SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU];
     let mut ending = vec![SIGINT, SIGTERM];
     ending.extend(unless_ignored.into_iter().filter(|&it| !is_ignored(it)));
-    // Where that is refused, signals do what they always do, and nothing else.
+    // If registration fails, signals keep their default action.
     let Ok(mut signals) = signal_hook::iterator::Signals::new(ending) else {
         return;
     };
@@ -42,8 +46,10 @@ pub(crate) fn clean_up_after_signals() {
     });
 }
 
-/// Whether whoever started the program has it ignore a signal, as `nohup` does with the end of a terminal. Where the system does not say
-/// so, that one is left alone: it would end a program that is to go on.
+/// Whether the parent has this program ignore a signal, as `nohup` does with SIGHUP.
+///
+/// Where the system does not say so, SIGHUP counts as ignored: a handler would end a program that
+/// is meant to go on.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -56,13 +62,13 @@ fn is_ignored(signal: i32) -> bool {
     }
 }
 
-/// Elsewhere a file that is not whole stays behind.
+/// Does nothing: on other systems an unfinished file stays behind.
 #[cfg(not(unix))]
 pub(crate) fn clean_up_after_signals() {}
 
-/// What some work ends in; if that is a panic, an error that says so.
+/// Runs some work, and turns a panic into an error.
 pub(crate) fn caught<T>(work: impl FnOnce() -> anyhow::Result<T>) -> anyhow::Result<T> {
-    // Nothing that the work had in hand is used again: the program ends.
+    // Unwind safe: nothing that the work held is used again, since the program ends.
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
         let place = PLACE.lock().ok().and_then(|mut last| last.take());
         let place = place.map_or_else(String::new, |place| format!(" ({place})"));
@@ -73,7 +79,7 @@ pub(crate) fn caught<T>(work: impl FnOnce() -> anyhow::Result<T>) -> anyhow::Res
     })
 }
 
-/// What a panic said.
+/// Message of a panic.
 fn said(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     text.or_else(|| panic.downcast_ref().copied())
@@ -96,7 +102,7 @@ mod tests {
         assert_eq!(error(|| anyhow::bail!("refused")), "refused");
     }
 
-    /// A panic on another thread arrives here, too, if that hands it on.
+    /// A panic of another thread is caught, too, if it is resumed here.
     #[test]
     fn threads_hand_their_panics_on() {
         let said = caught(|| -> anyhow::Result<()> {

@@ -1,8 +1,8 @@
-//! Tests of the help: it teaches by examples, and every example is a command that the program takes.
+//! Tests of the help texts: each has examples, and the program accepts every example.
 
 use clap::Command;
 
-/// Shows every verb with every long option it has.
+/// Calls `show` with every verb and each of its long options.
 pub(crate) fn for_each_option(mut show: impl FnMut(&str, &str)) {
     let mut program = crate::command();
     program.build();
@@ -22,7 +22,7 @@ fn verbs(program: &Command) -> impl Iterator<Item = &Command> {
         .filter(|verb| verb.get_name() != "help")
 }
 
-/// The commands in a help text: lines that begin with `  pliant`, up to what a shell does with them or a remark.
+/// Commands in a help text: lines that begin with ` pliant`, without remarks and shell operators.
 fn examples(command: &Command) -> Vec<String> {
     let help = command
         .get_after_help()
@@ -43,7 +43,7 @@ fn examples_fit_a_narrow_terminal() {
     let program = crate::command();
     for command in std::iter::once(&program).chain(verbs(&program)) {
         let help = command.get_after_help().expect("examples").to_string();
-        // What is longer would be broken in two, and could not be copied. Prose may be.
+        // A longer example would be wrapped and could not be copied. Prose may wrap.
         for line in help.lines().filter(|line| line.starts_with("  ")) {
             assert!(line.chars().count() <= 80, "{}: {line}", command.get_name());
         }

@@ -1,4 +1,6 @@
-//! Which frames: `10..20`, `10..`, `..20`, `10`, `..`; the end is not one of them. `10..20:3` is every third of these.
+//! Frame ranges on the command line: `10..20`, `10..`, `..20`, `10`, `..`, `10..20:3`.
+//!
+//! The end is exclusive. `:3` takes every third frame of the range.
 
 use anyhow::bail;
 use std::iter::StepBy;
@@ -8,9 +10,9 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Frames {
     start: usize,
-    /// None for the last frame there is.
+    /// Exclusive end. `None`: up to the last frame.
     end: Option<usize>,
-    /// From one to the next.
+    /// Distance from one frame to the next.
     step: usize,
 }
 
@@ -19,7 +21,8 @@ impl FromStr for Frames {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let number = |text: &str| {
-            let help = "write frames as 10..20, 10.., ..20, 10 or 10..20:3; they count from 0, and the end is not one of them";
+            let help = "write frames as 10..20, 10.., ..20, 10 or 10..20:3; \
+                        they count from 0, and the end is not one of them";
             text.parse::<usize>().map_err(|_| help.to_owned())
         };
         let Some((start, end)) = text.split_once("..") else {
@@ -36,7 +39,7 @@ impl FromStr for Frames {
             None => (end, 1),
         };
         if step == 0 {
-            return Err("there is no 0th frame after each; 10..20:3 is every third".to_owned());
+            return Err("a step of 0 frames goes nowhere; 10..20:3 is every third".to_owned());
         }
         let start = if start.is_empty() { 0 } else { number(start)? };
         let end = if end.is_empty() {
@@ -46,7 +49,8 @@ impl FromStr for Frames {
         };
         if end.is_some_and(|end| end <= start) {
             return Err(format!(
-                "no frame is from {start} up to, but not, {}; write the first frame, and the one behind the last",
+                "{start}..{} has no frames, for its end is not one of them; \
+                 write the first frame, and the one behind the last",
                 end.unwrap_or(0)
             ));
         }
@@ -55,7 +59,7 @@ impl FromStr for Frames {
 }
 
 impl Frames {
-    /// These of so many.
+    /// Numbers of the chosen frames, out of `count`. An error if one of them does not exist.
     pub(crate) fn within(self, count: usize) -> anyhow::Result<StepBy<Range<usize>>> {
         let Self { start, end, step } = self;
         let end = end.unwrap_or(count);
@@ -63,14 +67,15 @@ impl Frames {
         let last = last.map(|last| last - (last - start) % step);
         if last.is_none_or(|last| last >= count) {
             bail!(
-                "there are frames 0 to {}; choose among these with `--frames`",
+                "not all of the chosen frames exist; there are frames 0 to {}; \
+                 choose among these with `--frames`",
                 count - 1
             );
         }
         Ok((start..end).step_by(step))
     }
 
-    /// These, to be checked, however many there are.
+    /// The chosen frames as settings of a check, which finds out how many exist.
     pub(crate) fn to_check(self) -> pliant_check::Frames {
         let Self { start, end, step } = self;
         pliant_check::Frames {
@@ -130,7 +135,7 @@ mod tests {
             ("2..8:3", &[2, 5]),
             ("..:4", &[0, 4, 8]),
             ("7..:1", &[7, 8, 9]),
-            // The last of these is there.
+            // The end does not exist, but the last frame that this step reaches does.
             ("..11:4", &[0, 4, 8]),
             ("3..:100", &[3]),
             ("..5:18446744073709551615", &[0]),

@@ -1,7 +1,9 @@
-//! The program `pliant`: one file or folder a verb, this one chooses among them.
+//! The program `pliant`: parses the arguments and runs one verb, each in a file or folder of its
+//! own.
 //!
-//! Whatever goes wrong, wrong usage too, ends in one line on standard error that says what, where and what to do, and in exit
-//! code 2; only where nothing at all was asked, help is shown. If standard output is closed before the end, as `head` does, the exit code is 2 too, without a line.
+//! Every error, wrong usage included, ends in one line on standard error and exit code 2. The line
+//! says what is wrong, where, and what to do. Without any arguments the help is shown. If standard
+//! output is closed early, as `head` does, the exit code is 2 without a line.
 
 mod advice;
 mod bench;
@@ -68,7 +70,8 @@ Examples:
   pliant convert fox.glb fox.npz             the same in another format
   pliant bench table-1                       the paper's table 1
 
-`pliant VERB --help` has more. Exit code 0: nothing intersects, or nothing was asked. 1: something does. 2: it could not be done.";
+`pliant VERB --help` has more. Exit code 0: nothing intersects, or nothing was asked. \
+1: something does. 2: it could not be done.";
 
 fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
@@ -90,7 +93,7 @@ fn main() -> ExitCode {
         Ok(Outcome::Clear) => ExitCode::SUCCESS,
         Ok(Outcome::Intersects) => ExitCode::from(1),
         Err(error) => {
-            // Whoever reads has gone (`| head`): nobody to tell.
+            // The reader has gone (`| head`): nobody to tell.
             if !is_broken_pipe(&error) {
                 complain(&advice::with_advice(&error));
             }
@@ -99,7 +102,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// The program as clap knows it, for what is made from it.
+/// Definition of the program's arguments, for texts generated from it.
 fn command() -> clap::Command {
     Arguments::command()
 }

@@ -1,4 +1,4 @@
-//! `pliant man`: manual pages, one for the program and one for each verb, made from the same arguments as the help.
+//! `pliant man`: manual pages of the program and of each verb, generated from the argument structs.
 
 use crate::outcome::Outcome;
 use crate::terminal::print_all;
@@ -12,7 +12,8 @@ use std::path::PathBuf;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// The folder to write pliant.1, pliant-run.1, ... into; it is made if it is not there. Without it, pliant.1 goes to standard output
+    /// The folder for pliant.1, pliant-run.1, ...; it is made if it is not there. Without a folder,
+    /// pliant.1 goes to standard output
     #[arg(value_name = "DIR")]
     folder: Option<PathBuf>,
 }
@@ -22,7 +23,7 @@ Examples:
   pliant man ~/.local/share/man/man1    then `man pliant`, `man pliant-check`
   pliant man | man -l -                 read it now";
 
-/// Writes the pages of the program.
+/// Writes the manual pages to a folder, or the first one to standard output.
 pub(crate) fn write(arguments: &Arguments, program: Command) -> anyhow::Result<Outcome> {
     let pages = pages(program)?;
     let Some(folder) = &arguments.folder else {
@@ -38,7 +39,7 @@ pub(crate) fn write(arguments: &Arguments, program: Command) -> anyhow::Result<O
     Ok(Outcome::Clear)
 }
 
-/// Names of files and what is in them: the program first, then its verbs.
+/// File names and texts of the pages: the program first, then its verbs.
 fn pages(program: Command) -> anyhow::Result<Vec<(String, String)>> {
     let mut program = program.disable_help_subcommand(true);
     // Makes usage lines name the program.
@@ -64,7 +65,7 @@ mod tests {
     #[test]
     fn a_page_a_verb_names_every_option_and_example() {
         let pages = pages(crate::command()).unwrap();
-        // A page for each verb, and none for the help that clap adds to them.
+        // A page for each verb, and none for the `help` that clap adds.
         let files: Vec<&str> = pages.iter().map(|(file, _)| file.as_str()).collect();
         let verbs = [
             "run",

@@ -1,10 +1,10 @@
-//! How the program ends.
+//! Outcome of a command, which becomes the exit code of the program.
 
-/// What the caller of the program learns from its exit code.
+/// Outcome of a command that did not fail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Outcome {
-    /// 0: nothing intersects, or nothing was asked.
+    /// Exit code 0: nothing intersects, or nothing was asked.
     Clear,
-    /// 1: something intersects.
+    /// Exit code 1: something intersects.
     Intersects,
 }

@@ -1,9 +1,11 @@
-//! Files that a command writes beside what it prints: whole or not at all, and over nobody's work.
+//! Output files (pages, pictures, charts): written whole or not at all, and never over foreign
+//! files.
 //!
-//! A file is made beside its place and moved there when it is whole, so a full disk or an end in between leaves what was there as it
-//! was. It takes a name of its own: of a link the link is replaced, never the file that it leads to, so no mesh can be lost by a name.
-//! What is there already is replaced if `pliant` wrote it, which a mark near its beginning says; anything else only with `--force`.
-//! Pipes and devices are refused, and never waited for.
+//! A file is written under a temporary name beside its place and renamed when complete. A full disk
+//! or an interruption leaves the earlier file as it was. A symbolic link is replaced itself, never
+//! its target, so no mesh is lost through a name. An existing file is replaced if `pliant` wrote
+//! it, which a mark near its beginning says; any other only with `--force`. Pipes and devices are
+//! refused and never waited for.
 
 use anyhow::{Context, bail};
 use clap::Args;
@@ -12,12 +14,12 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Read, Write};
 use std::path::Path;
 
-/// In pages, pictures, charts and files for ParaView.
+/// Mark of this program in pages, pictures, charts and files for ParaView.
 pub(crate) const MARK: &str = pliant_report::MARK;
-/// Where a mark is, at most.
+/// Bytes at the beginning of a file that are searched for a mark.
 const BEGINNING: u64 = 4096;
 
-/// What may be written over.
+/// Permission to write over existing files.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub(crate) struct Overwrite {
     /// Write over files that pliant did not write
@@ -25,7 +27,7 @@ pub(crate) struct Overwrite {
     pub(crate) force: bool,
 }
 
-/// Sees to it that a file can be written, before anything is computed; leaves what is there as it is.
+/// Checks that a file can be written, before anything is computed. What is there stays as it is.
 pub(crate) fn prepare(path: &Path, mark: &str, over: Overwrite) -> anyhow::Result<()> {
     may_be_replaced(path, mark, over)?;
     StagedFile::create(path)
@@ -33,7 +35,7 @@ pub(crate) fn prepare(path: &Path, mark: &str, over: Overwrite) -> anyhow::Resul
         .map_err(|error| of_system(path, error))
 }
 
-/// Writes a file. `mark` is what files of this kind begin with, or nearly.
+/// Writes a file. `mark` stands at or near the beginning of files of this kind.
 pub(crate) fn write(
     path: &Path,
     mark: &str,
@@ -55,7 +57,7 @@ fn cannot_write(path: &Path) -> String {
     format!("cannot write {}", shown(path))
 }
 
-/// The system's error behind one of a staged file, so that advice can be given on it.
+/// Takes the system's error out of an error of a staged file, so that advice can be given on it.
 fn of_system(path: &Path, error: pliant_io::Error) -> anyhow::Error {
     match error.into_reason() {
         pliant_io::Reason::Write(error) => anyhow::Error::new(error),
@@ -64,7 +66,7 @@ fn of_system(path: &Path, error: pliant_io::Error) -> anyhow::Error {
     .context(cannot_write(path))
 }
 
-/// Refuses what is there and is not to be replaced.
+/// Refuses a folder, pipe, device or foreign file that is in the way.
 fn may_be_replaced(path: &Path, mark: &str, over: Overwrite) -> anyhow::Result<()> {
     let kind = match path.symlink_metadata() {
         Err(absent) if absent.kind() == io::ErrorKind::NotFound => return Ok(()),
@@ -82,16 +84,17 @@ fn may_be_replaced(path: &Path, mark: &str, over: Overwrite) -> anyhow::Result<(
     }
     if !over.force && !bears(path, mark) {
         bail!(
-            "{}: a file that pliant did not write is there; choose another name, or use `--force` to write over it",
+            "{}: a file that pliant did not write is there; choose another name, \
+             or use `--force` to write over it",
             cannot_write(path)
         );
     }
     Ok(())
 }
 
-/// Whether a file has a mark near its beginning. One that cannot be read has none.
+/// Whether a file has the mark near its beginning. A file that cannot be read has none.
 fn bears(path: &Path, mark: &str) -> bool {
-    // What a link leads to may be a pipe, which would be waited for.
+    // The target of a link may be a pipe, and reading it would block.
     if !fs::metadata(path).is_ok_and(|its| its.is_file()) {
         return false;
     }

@@ -1,6 +1,6 @@
-//! How many frames a second, as people write it.
+//! Frame rates on the command line.
 
-/// A number of frames a second.
+/// Parses a frame rate in frames a second: above 0 and finite.
 pub(crate) fn parse(text: &str) -> Result<f64, String> {
     text.parse()
         .ok()

@@ -1,6 +1,6 @@
-//! What was found, to look at: `--report` and `--png` of the verbs that play or check something.
+//! Pages and pictures of what was found: `--report` and `--png` of the verbs `run` and `check`.
 //!
-//! Without them nothing here does anything: no pair is kept, no position is copied.
+//! Without these flags no pair is kept and no position is copied.
 
 use crate::output::{self, MARK, Overwrite};
 use crate::table::grouped;
@@ -14,19 +14,28 @@ use pliant_report::{BodyLabel, Chart, Gap, Moment, Motion, Play, Recorder, Repor
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-/// Where pictures go.
+/// Flags for the page and the picture.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct PictureOptions {
-    /// Write a page about what was found, one file that needs no network: the bodies in motion, what intersects in red
+    /// Write a page about what was found: one file that needs no network, with the bodies in motion
+    /// and what intersects in red
     #[arg(long, value_name = "FILE.html", value_parser = page_name)]
     report: Option<PathBuf>,
-    /// Draw one frame as an image: the place with the most pairs, and everything in an inset; what intersects in red, faintly so where it is hidden
+    /// Draw one frame as an image: the place with the most pairs, and everything in an inset. What
+    /// intersects is red, and faintly red where it is hidden
     #[arg(long, value_name = "FILE.png", value_parser = image_name)]
     png: Option<PathBuf>,
     /// The frame, or the step, that --png draws; needed unless there is only one
-    #[arg(long, value_name = "N", requires = "png", allow_negative_numbers = true, value_parser = frame::<u32>)]
+    #[arg(
+        long,
+        value_name = "N",
+        requires = "png",
+        allow_negative_numbers = true,
+        value_parser = frame::<u32>
+    )]
     frame: Option<u32>,
-    /// From where --png looks, y up: corner (from the right, above and in front), front, back, left, right, top, bottom
+    /// The side from which --png looks, y up: corner (from the right, above and in front), front,
+    /// back, left, right, top, bottom
     #[arg(long, value_name = "SIDE", requires = "png")]
     view: Option<View>,
     /// How large --png is, in pixels: 1280x960
@@ -37,19 +46,19 @@ pub(crate) struct PictureOptions {
 }
 
 impl PictureOptions {
-    /// Whether anything is to be drawn.
+    /// Whether a page or a picture is asked for.
     pub(crate) fn any(&self) -> bool {
         self.report.is_some() || self.png.is_some()
     }
 }
 
-/// The number of a frame.
+/// Parses the number of a frame.
 pub(crate) fn frame<N: FromStr>(text: &str) -> Result<N, String> {
     text.parse()
         .map_err(|_| "write the number of a frame, from 0".to_owned())
 }
 
-/// Pixels across and down.
+/// Parses a picture's width and height in pixels.
 fn size(text: &str) -> Result<[usize; 2], String> {
     let parts = text.split_once(['x', 'X']);
     let parsed =
@@ -59,7 +68,7 @@ fn size(text: &str) -> Result<[usize; 2], String> {
         .ok_or_else(|| "write WIDTHxHEIGHT in pixels, each from 16 to 8192: 1280x960".to_owned())
 }
 
-/// A name that is a page's: a mistyped argument must not cost somebody a mesh.
+/// Parses the file name of a page. Other endings are refused: a typing error must not cost a mesh.
 pub(crate) fn page_name(name: &str) -> Result<PathBuf, String> {
     ends_in(name, &["html", "htm"])
 }
@@ -82,35 +91,35 @@ fn ends_in(name: &str, endings: &[&str]) -> Result<PathBuf, String> {
     ))
 }
 
-/// Writes a page.
+/// Writes a page to a file.
 pub(crate) fn write_page(path: &Path, report: &Report, over: Overwrite) -> anyhow::Result<()> {
     output::write(path, MARK, over, |out| {
         out.write_all(report.page().as_bytes())
     })
 }
 
-/// Looks at each frame, if anybody wants to see it.
+/// Records the frames that the page and the picture need; none if neither is asked for.
 pub(crate) struct Watcher {
     options: PictureOptions,
     recorder: Option<Recorder>,
-    /// What frames are called.
+    /// The word for a frame: `frame` or `step`.
     along: String,
-    /// How close pairs are, if they are not those that intersect.
+    /// Largest distance of pairs. `None`: pairs intersect.
     within: Option<f64>,
-    /// What else was found, in a sentence.
+    /// A sentence about further findings.
     also: Option<String>,
-    /// Of a play whose places nobody else finds.
+    /// Finds the places of pairs where the caller has none.
     places: Places,
 }
 
-/// A world in the frame that it is in.
+/// A world in its present frame, as meshes in which places are found.
 struct Shown<'a, S: Scalar> {
     world: &'a World<S>,
     positions: Vec<Vec<[S; 3]>>,
 }
 
 impl<'a, S: Scalar> Shown<'a, S> {
-    /// Positions are looked up of bodies that are hit only.
+    /// Copies the positions of bodies in `pairs` only.
     fn of(world: &'a World<S>, pairs: &[[u32; 4]]) -> Self {
         let mut hit: Vec<u32> = pairs.iter().flat_map(|&[a, _, b, _]| [a, b]).collect();
         hit.sort_unstable();
@@ -142,7 +151,8 @@ impl<S: Scalar> Meshes for Shown<'_, S> {
 }
 
 impl Watcher {
-    /// `numbers`: the frames there will be. `labels` are asked for if there is to be a page.
+    /// Checks the flags and that files can be written. `numbers` are the numbers of all frames to
+    /// come. `labels` is called if there is a page.
     pub(crate) fn new(
         options: &PictureOptions,
         labels: impl FnOnce() -> Vec<BodyLabel>,
@@ -156,10 +166,12 @@ impl Watcher {
         let last = numbers.last().unwrap_or_default();
         match options.frame {
             Some(frame) if is_missing => bail!(
-                "--frame {frame}: no such {along} is looked at; the first is {first}, the last {last}"
+                "--frame {frame}: no such {along} is looked at; choose another: \
+                 the first is {first}, the last {last}"
             ),
             None if options.png.is_some() && first != last => bail!(
-                "--png draws one {along}: say which with --frame; the first is {first}, the last {last}"
+                "--png draws one {along}: say which with --frame; \
+                 the first is {first}, the last {last}"
             ),
             None if options.png.is_some() => options.frame = Some(first),
             _ => {}
@@ -177,35 +189,35 @@ impl Watcher {
         })
     }
 
-    /// From now on pairs are of triangles that are so close.
+    /// Sets the largest distance of pairs. `None`: pairs intersect.
     pub(crate) fn within(mut self, within: Option<f64>) -> Self {
         self.within = within;
         self
     }
 
-    /// Whether there is to be a page.
+    /// Whether a page is written.
     pub(crate) fn has_page(&self) -> bool {
         self.recorder.is_some()
     }
 
-    /// A sentence more about what was found.
+    /// Adds a sentence about further findings.
     pub(crate) fn also_found(&mut self, sentence: String) {
         self.also = Some(sentence);
     }
 
-    /// Takes what meets on the way from the frame taken last, of a world in that frame with a motion to the next.
+    /// Records contacts between two frames. `world` is in the first, with a motion to the second.
     pub(crate) fn moment<S: Scalar>(&mut self, world: &World<S>, moment: &Moment) {
         if let Some(recorder) = &mut self.recorder {
             recorder.moment(world, moment);
         }
     }
 
-    /// Whether the pairs of this frame are.
+    /// Whether the pairs of this frame are needed.
     pub(crate) fn looks_at(&self, number: u32) -> bool {
         self.recorder.is_some() || self.options.frame == Some(number)
     }
 
-    /// Takes a frame: its pairs are body, triangle, body, triangle.
+    /// Records a frame, and finds its places. Pairs are body, triangle, body, triangle.
     pub(crate) fn frame<S: Scalar>(
         &mut self,
         number: u32,
@@ -226,7 +238,10 @@ impl Watcher {
         })
     }
 
-    /// The same where places are known, and the gaps of pairs that do not intersect, sorted by pair; `name` says what a body is called in them.
+    /// Records a frame whose places are known.
+    ///
+    /// `gaps` measures pairs that do not intersect, sorted by pair. `name` returns a body's name
+    /// for the labels of places.
     pub(crate) fn frame_with<S: Scalar>(
         &mut self,
         number: u32,
@@ -265,7 +280,7 @@ impl Watcher {
         Ok(())
     }
 
-    /// Writes the page, if there is to be one. `tell` adds what it knows about the play.
+    /// Writes the page, if there is one. `tell` adds what it knows about the play.
     pub(crate) fn finish(
         self,
         name: &str,
@@ -291,7 +306,7 @@ impl Watcher {
     }
 }
 
-/// What stands in a picture.
+/// Caption of a picture.
 fn caption(along: &str, number: u32, pairs: usize, spots: &[Spot]) -> String {
     let pairs = match pairs {
         0 => "nothing intersects".to_owned(),
@@ -308,7 +323,7 @@ fn caption(along: &str, number: u32, pairs: usize, spots: &[Spot]) -> String {
     format!("{along} {number}: {pairs}{places}")
 }
 
-/// The bodies of a place, by name; of many the first two.
+/// Names of the bodies of a place: the first two, and how many more.
 fn whose(place: &Place, name: impl Fn(u32) -> String) -> String {
     let named = place.bodies.iter().take(2).map(|it| name(it.body));
     let named = named.collect::<Vec<_>>().join(", ");
@@ -318,10 +333,10 @@ fn whose(place: &Place, name: impl Fn(u32) -> String) -> String {
     }
 }
 
-/// The command, as it could be typed again.
+/// The command line, quoted so that it can be typed again.
 pub(crate) fn asked() -> String {
     let words = std::env::args_os().skip(1).map(|word| {
-        // Whole: it is to be typed again.
+        // Not shortened: it is to be typed again.
         let word = shown_within(word, usize::MAX);
         let is_plain = |c: char| c.is_alphanumeric() || "-_./=:,+@%".contains(c);
         if !word.is_empty() && word.chars().all(is_plain) {
@@ -336,7 +351,7 @@ pub(crate) fn asked() -> String {
         .join(" ")
 }
 
-/// In a sentence or two.
+/// Summary of all frames in a sentence or two.
 fn found(motion: &Motion, along: &str, within: Option<f64>) -> String {
     let all = motion.pairs().len();
     if let Some(within) = within {
@@ -346,7 +361,8 @@ fn found(motion: &Motion, along: &str, within: Option<f64>) -> String {
                 let hit = grouped(motion.frames_with_hits() as u64);
                 let pairs = counted(most, "pair", "pairs");
                 format!(
-                    "There are {close} in {hit} of {} {along}s, first in {along} {first}. Most: {pairs}, in {along} {worst}.",
+                    "There are {close} in {hit} of {} {along}s, first in {along} {first}. \
+                     Most: {pairs}, in {along} {worst}.",
                     grouped(all as u64)
                 )
             }
@@ -363,7 +379,8 @@ fn found(motion: &Motion, along: &str, within: Option<f64>) -> String {
         (Some(first), Some((worst, most))) => {
             let hit = grouped(motion.frames_with_hits() as u64);
             format!(
-                "Something intersects in {hit} of {} {along}s, first in {along} {first}. Most pairs: {}, in {along} {worst}.",
+                "Something intersects in {hit} of {} {along}s, first in {along} {first}. \
+                 Most pairs: {}, in {along} {worst}.",
                 grouped(all as u64),
                 grouped(most),
             )
@@ -376,7 +393,7 @@ fn found(motion: &Motion, along: &str, within: Option<f64>) -> String {
     }
 }
 
-/// What every page has.
+/// Facts that every page shows.
 fn facts(motion: &Motion, along: &str) -> Vec<(String, String)> {
     let none = || "none".to_owned();
     let [bodies, vertices, triangles] = motion.sizes().map(|size| grouped(size as u64));
@@ -449,7 +466,7 @@ pub(crate) fn counted(number: u64, one: &str, many: &str) -> String {
     )
 }
 
-/// A fact.
+/// A named fact on a page.
 pub(crate) fn fact(name: &str, value: impl Into<String>) -> (String, String) {
     (name.to_owned(), value.into())
 }

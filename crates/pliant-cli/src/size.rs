@@ -1,6 +1,6 @@
-//! A number of bytes as people write it: `4GiB`, `512MiB`, `1G`, `65536`.
+//! Sizes in bytes on the command line: `4GiB`, `512MiB`, `1G`, `65536`.
 
-/// Reads a size. The letters are powers of 1024, in either case, with or without `iB`.
+/// Parses a size. Units are powers of 1024, in upper or lower case, with or without `iB`.
 pub(crate) fn parse(text: &str) -> Result<u64, String> {
     let help = "write a number of bytes, or one with a unit: 65536, 512MiB, 4G";
     let end = text
@@ -13,7 +13,7 @@ pub(crate) fn parse(text: &str) -> Result<u64, String> {
         "m" | "mib" => 20,
         "g" | "gib" => 30,
         "t" | "tib" => 40,
-        // Some mean 1000, some 1024.
+        // Ambiguous: powers of 1000 for some, of 1024 for others.
         "kb" | "mb" | "gb" | "tb" => {
             let binary = format!("{}iB", unit[..1].to_ascii_uppercase());
             return Err(format!(
@@ -25,7 +25,7 @@ pub(crate) fn parse(text: &str) -> Result<u64, String> {
     let number: u64 = digits.parse().map_err(|_| help.to_owned())?;
     number
         .checked_mul(1 << shift)
-        .ok_or_else(|| "more bytes than any memory has".to_owned())
+        .ok_or_else(|| "more bytes than any memory has; write fewer: 4G".to_owned())
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
-//! Tables and numbers for people.
+//! Tables and numbers, formatted for people.
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 
-/// Words on the left, figures on the right, no lines.
+/// A table without lines: the first column aligned left, the others right.
 pub(crate) fn table(header: &[&str]) -> Table {
     let mut table = Table::new();
     table.load_style(NOTHING).set_header(header);
@@ -13,7 +13,7 @@ pub(crate) fn table(header: &[&str]) -> Table {
     table
 }
 
-/// 20480 as 20,480.
+/// Decimal digits in groups of three: 20480 is `20,480`.
 pub(crate) fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut grouped = String::new();

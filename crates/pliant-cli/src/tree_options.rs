@@ -1,30 +1,35 @@
-//! The library's options as flags.
+//! Flags for the library's options of trees, updates, the broad phase and threads.
 
 use clap::{Args, ValueEnum};
 use pliant::Options;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::str::FromStr;
 
-/// How trees are built and updated, and bodies that may meet are found.
+/// Flags that set [`Options`].
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Trees and threads (no choice changes an answer)")]
 pub(crate) struct TreeOptions {
     /// The most children of a node
     #[arg(long, value_name = "N", default_value = "8", value_parser = ["2", "4", "8"])]
     degree: String,
-    /// How triangles are divided into a tree: at the centre of a node's box, at the mean of the triangles' midpoints, along the mesh into connected pieces (all in the paper), or into equal parts
+    /// How triangles are divided into a tree. centre: at the centre of a node's box. mean: at the
+    /// mean of the triangles' midpoints. connectivity: along the mesh, into connected pieces.
+    /// balanced: into equal parts, which is not in the paper
     #[arg(long, value_enum, default_value_t = Partition::Balanced)]
     partition: Partition,
     /// The most triangles in a leaf; 1 in the paper
     #[arg(long, value_name = "K", default_value = "8", value_parser = at_least_one::<NonZeroU32>)]
     leaf_size: NonZeroU32,
-    /// Which boxes are made when
+    /// Which boxes are made when. bottom-up: all before a query. top-down: each when the query
+    /// reaches it. hybrid: some levels before, the rest when reached
     #[arg(long, value_enum, default_value_t = Update::Hybrid)]
     update: Update,
-    /// The level down to which the hybrid makes boxes bottom-up; the root is 0 [default: n/2, where n is the level of the deepest leaf]
+    /// The level down to which the hybrid makes boxes bottom-up; the root is 0 [default: n/2, where
+    /// n is the level of the deepest leaf]
     #[arg(long, value_name = "L")]
     level: Option<u32>,
-    /// How bodies that may meet are found: every pair of boxes, sweep and prune, a tree of bodies, or by the number of bodies
+    /// How bodies that may meet are found. brute: every pair of boxes. sweep: sweep and prune.
+    /// tree: a tree of bodies. auto: by the number of bodies
     #[arg(long, value_enum, default_value_t = Broad::Auto)]
     broad: Broad,
     /// How many threads share the work of a query
@@ -56,10 +61,12 @@ enum Broad {
 }
 
 impl TreeOptions {
-    /// The library's options.
+    /// Converts the flags to the library's options.
     pub(crate) fn to_options(&self) -> anyhow::Result<Options> {
         if self.level.is_some() && self.update != Update::Hybrid {
-            anyhow::bail!("--level is the hybrid update's; it goes with --update hybrid");
+            anyhow::bail!(
+                "--level is for the hybrid update alone; leave it out, or choose --update hybrid"
+            );
         }
         let mut options = Options::default();
         options.degree = match self.degree.as_str() {
@@ -92,7 +99,7 @@ impl TreeOptions {
         Ok(options)
     }
 
-    /// The flags and their values, by name.
+    /// Flags and their values by name, for JSON.
     pub(crate) fn named(&self) -> serde_json::Map<String, serde_json::Value> {
         let serde_json::Value::Object(named) = serde_json::json!({
             "degree": self.degree.parse::<u32>().unwrap_or_default(),
@@ -108,7 +115,7 @@ impl TreeOptions {
         named
     }
 
-    /// One line for people.
+    /// Summary of the flags in one line, for people.
     pub(crate) fn describe(&self) -> String {
         let update = match (self.update, self.level) {
             (Update::Hybrid, Some(level)) => format!("hybrid at level {level}"),
@@ -131,13 +138,13 @@ impl TreeOptions {
     }
 }
 
-/// A number of things of which one must be there.
+/// Parses a count of at least one.
 pub(crate) fn at_least_one<N: FromStr>(text: &str) -> Result<N, String> {
     text.parse()
         .map_err(|_| "write a whole number, 1 or more".to_owned())
 }
 
-/// A value as it is written on the command line.
+/// Name of a value, as it is written on the command line.
 pub(crate) fn value_name(value: impl ValueEnum + Copy) -> String {
     value
         .to_possible_value()

@@ -1,19 +1,20 @@
-//! What is said of arguments that are none: one line, like of everything else that goes wrong.
+//! Usage errors in one line, like all other errors.
 //!
-//! clap writes several: what is wrong, what is possible, tips, the usage, where help is. The usage is left to the help.
+//! clap prints several lines: the error, possible values, tips, the usage, a pointer to the help.
+//! The usage is left to the help.
 
 use crate::terminal::complain;
 use clap::Error;
 use clap::error::ErrorKind;
 use std::process::ExitCode;
 
-/// Prints help, or the version, or what is wrong.
+/// Prints help, the version or a usage error, and returns the exit code.
 pub(crate) fn said(error: &Error) -> ExitCode {
     match error.kind() {
         ErrorKind::DisplayHelp
         | ErrorKind::DisplayVersion
         | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
-            // Nobody to tell, if it cannot be printed.
+            // If printing fails, there is nobody to tell.
             let _ = error.print();
             ExitCode::from(u8::from(error.use_stderr()) * 2)
         }
@@ -24,7 +25,7 @@ pub(crate) fn said(error: &Error) -> ExitCode {
     }
 }
 
-/// What clap says in several lines, without the usage.
+/// Joins the lines of a message of clap, without the usage.
 fn in_one_line(text: &str) -> String {
     let mut line = String::new();
     let text = text.strip_prefix("error: ").unwrap_or(text);
@@ -36,7 +37,7 @@ fn in_one_line(text: &str) -> String {
             part => part,
         };
         if !line.is_empty() {
-            // What is possible, or what is missing, ends the sentence before it.
+            // Possible values and missing arguments end the sentence before them.
             let goes_on = line.ends_with(':') || part.starts_with('[');
             line.push_str(if goes_on { " " } else { "; " });
         }
@@ -53,11 +54,14 @@ mod tests {
     fn what_clap_says_becomes_one_line() {
         for (text, line) in [
             (
-                "error: unrecognized subcommand 'chek'\n\n  tip: a similar subcommand exists: 'check'\n\nUsage: pliant <COMMAND>\n\nFor more information, try '--help'.\n",
-                "unrecognized subcommand 'chek'; tip: a similar subcommand exists: 'check'; `--help` says more",
+                "error: unrecognized subcommand 'chek'\n\n  tip: a similar subcommand exists: \
+                 'check'\n\nUsage: pliant <COMMAND>\n\nFor more information, try '--help'.\n",
+                "unrecognized subcommand 'chek'; tip: a similar subcommand exists: 'check'; \
+                 `--help` says more",
             ),
             (
-                "error: the following required arguments were not provided:\n  <BODY>...\n\nUsage: pliant check <BODY>...\n",
+                "error: the following required arguments were not provided:\n  <BODY>...\n\n\
+                 Usage: pliant check <BODY>...\n",
                 "the following required arguments were not provided: <BODY>...",
             ),
             (

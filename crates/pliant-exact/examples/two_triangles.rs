@@ -1,7 +1,9 @@
-//! Whether two triangles meet, how, and how far apart they are: eighteen coordinates on the command line.
+//! Whether two triangles meet, how, and how far apart they are: eighteen coordinates on the command
+//! line.
 //!
 //! ```sh
-//! cargo run -p pliant-exact --example two_triangles -- 0 0 0  1 0 0  0 1 0   0.2 0.3 0  0.2 0.3 1  0.9 0.3 1
+//! cargo run -p pliant-exact --example two_triangles -- \
+//!     0 0 0  1 0 0  0 1 0   0.2 0.3 0  0.2 0.3 1  0.9 0.3 1
 //! ```
 
 use pliant_exact::distance::{SomePoints, closest_triangles};

@@ -1,37 +1,49 @@
 //! How two triangles that intersect do so, on signs alone.
 //!
-//! They cross if they intersect after every small enough move, that is if the origin is inside the set of differences of their points, and
-//! not on its boundary: if no plane has the one on its one closed side and the other on the other. These differences fill space only if
-//! the triangles span it, and then their inside is that of the differences of what is inside either, seen in its own plane or line. So
-//!
-//! - two triangles with area cross if each has corners on both open sides of the other's plane, and on the line of the two planes the open
-//!   segments in which they meet it overlap. With p1 and p2 the corners alone on their sides and the others in the order of
-//!   `pliant`'s vector lanes, these are the two signs of Guigue and Devillers (2003), both negative: a zero is two ends in one point;
-//! - a segment crosses a triangle with area if its ends are on both open sides of its plane, and its line has the three edges on one side;
-//! - all others do not: two segments span no space, a point has nothing inside.
-//!
-//! Triangles of one plane overlap if both have area and no edge of either has them on its two closed sides. (Of two convex polygons with
-//! disjoint insides one has an edge whose line parts them.)
+//! They cross if they intersect after every small enough move of their corners. They overlap if
+//! they lie in one plane and have an area in common; else they touch. All three follow from signs
+//! of determinants, so the kind is as exact as these are. The two signs that tell a crossing are
+//! the ones of Guigue and Devillers (2003). Here triangles without area have a kind too.
 
 use super::orientation::Orientation;
-use super::point::{Point, Sign, Triangle};
-use super::triangles::plane_signs;
+use super::point::{PLANES, Point, Point2, Sign, Triangle, projected};
+use super::triangles::{edge, one_side, plane_signs};
 
-/// How two triangles, as closed sets, have points in common. Each pair that intersects is of one kind, decided exactly.
+/// How two triangles, as closed sets, have points in common. Each pair that intersects is of one
+/// kind, decided exactly.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ContactKind {
-    /// Neither of the others: a corner or an edge on the other triangle, or two edges at a point. A move of their corners, however
-    /// small, could part them.
+    /// Neither of the others: a corner or an edge on the other triangle, or two edges at a point. A
+    /// move of their corners, however small, could part them.
     #[default]
     Touching,
     /// They lie in one plane, and have an area in common. A small move could part them too.
     Overlapping,
-    /// They go through each other: after every small enough move of their corners they still intersect. So there is no plane with one
-    /// triangle on either closed side of it. A triangle without area, a segment, crosses another if it goes through its inside.
+    /// They go through each other: after every small enough move of their corners they still
+    /// intersect. So there is no plane with one triangle on either closed side of it. A triangle
+    /// without area, a segment, crosses another if it goes through its inside.
     Crossing,
 }
 
 /// How two triangles that are known to intersect do so.
+///
+/// They cross if they intersect after every small enough move: if the origin is inside the set of
+/// differences of their points, not on its boundary. That is, no plane has the one on its one
+/// closed side and the other on the other. These differences fill space only if the triangles span
+/// it. Then their inside is the differences of what is inside either, seen in its own plane or
+/// line. So
+///
+/// - two triangles with area cross if each has corners on both open sides of the other's plane, and
+///   their open segments on the line of both planes overlap. Let p1 and p2 be the corners alone on
+///   their sides, and the others in the order of `pliant`'s vector lanes. Then these are the two
+///   signs of Guigue and Devillers (2003), both negative: a zero is two ends in one point;
+/// - a segment crosses a triangle with area if its ends are on both open sides of its plane, and
+///   its line has the three edges on one side;
+/// - all others do not: two segments span no space, a point has nothing inside.
+///
+/// Triangles of one plane overlap if both have area and no edge of either has them on its two
+/// closed sides. (Of two convex polygons with disjoint insides one has an edge whose line parts
+/// them.)
 pub(super) fn contact_kind(
     a: &Triangle,
     b: &Triangle,
@@ -39,7 +51,8 @@ pub(super) fn contact_kind(
 ) -> ContactKind {
     let of_b = plane_signs(a, b, orientation);
     let of_a = plane_signs(b, a, orientation);
-    // If all of one triangle is in the plane of another that is not in its own, that other is a segment, in whose planes everything is.
+    // If all of one triangle is in the plane of another that is not in its own, that other is a
+    // segment. In its planes everything is.
     let do_cross = match (on_both_sides(of_a), on_both_sides(of_b)) {
         (true, true) => lines_cross([a, b], [of_a, of_b], orientation),
         (true, false) if of_b == [0; 3] => goes_through(a, of_a, b, orientation),
@@ -59,7 +72,8 @@ fn on_both_sides(signs: [Sign; 3]) -> bool {
     signs.contains(&1) && signs.contains(&-1)
 }
 
-/// Whether the open segments overlap in which two triangles, each on both sides of the other's plane, meet the line of the planes.
+/// Whether the open segments overlap in which two triangles, each on both sides of the other's
+/// plane, meet the line of the planes.
 fn lines_cross(
     [a, b]: [&Triangle; 2],
     [of_a, of_b]: [[Sign; 3]; 2],
@@ -87,26 +101,27 @@ fn alone_first(triangle: &Triangle, first: usize, is_turned: bool) -> [&Point; 3
     [&triangle[first], q, r]
 }
 
-/// Whether a segment, which has corners on both sides of a triangle's plane, goes through its inside.
+/// Whether a segment, which has corners on both sides of a triangle's plane, goes through its
+/// inside.
 fn goes_through(
     segment: &Triangle,
     signs: [Sign; 3],
     triangle: &Triangle,
     orientation: &mut impl Orientation,
 ) -> bool {
-    let long = (0..3).find(|&i| signs[i] * signs[(i + 1) % 3] < 0);
+    let long = (0..3).find(|&i| edge(&signs, i).iter().product::<Sign>() < 0);
     long.is_some_and(|i| {
-        let [p, q] = [&segment[i], &segment[(i + 1) % 3]];
-        let sides = [0, 1, 2].map(|j| orientation.sign(p, q, &triangle[j], &triangle[(j + 1) % 3]));
-        sides == [1; 3] || sides == [-1; 3]
+        let [p, q] = edge(segment, i);
+        let edges = [0, 1, 2].map(|j| edge(triangle, j));
+        one_side(edges.map(|[r, s]| orientation.sign(&p, &q, &r, &s)))
     })
 }
 
 /// Whether triangles in one plane have an area in common.
 fn overlap_in_plane(a: &Triangle, b: &Triangle, orientation: &mut impl Orientation) -> bool {
-    for (x, y) in [(0, 1), (1, 2), (2, 0)] {
-        let [a, b] = [a, b].map(|triangle| triangle.map(|point| [point[x], point[y]]));
-        let mut way = |[p, q, r]: [[f64; 2]; 3]| orientation.sign_in_plane(p, q, r);
+    for plane in PLANES {
+        let [a, b] = [a, b].map(|triangle| projected(triangle, plane));
+        let mut way = |[p, q, r]: [Point2; 3]| orientation.sign_in_plane(p, q, r);
         let (way_a, way_b) = (way(a), way(b));
         // Where one has an area seen from an axis, so has the other.
         if way_a != 0 && way_b != 0 {
@@ -118,13 +133,13 @@ fn overlap_in_plane(a: &Triangle, b: &Triangle, orientation: &mut impl Orientati
 
 /// Whether an edge of a triangle has the other on its outer closed side.
 fn parts(
-    triangle: [[f64; 2]; 3],
+    triangle: [Point2; 3],
     way: Sign,
-    other: [[f64; 2]; 3],
+    other: [Point2; 3],
     orientation: &mut impl Orientation,
 ) -> bool {
     (0..3).any(|i| {
-        let [p, q] = [triangle[i], triangle[(i + 1) % 3]];
+        let [p, q] = edge(&triangle, i);
         other
             .iter()
             .all(|&r| orientation.sign_in_plane(p, q, r) * way <= 0)

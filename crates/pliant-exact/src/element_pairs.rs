@@ -1,11 +1,13 @@
-//! The fifteen pairs of elements of two triangles: each corner and the other triangle, each edge and each edge.
+//! The fifteen pairs of elements of two triangles: each corner and the other triangle, each edge
+//! and each edge.
 //!
-//! Two triangles that do not intersect are as far apart as the nearest of these, whatever triangles they are: where two convex sets are
-//! closest, neither point is inside a face unless the other is a corner or, between parallel faces or edges, may be moved until it is one.
+//! Two triangles that do not intersect are as far apart as the nearest of these, whatever triangles
+//! they are. Where two convex sets are closest, neither point is inside a face unless the other is
+//! a corner, or may be moved until it is one. The latter is so between parallel faces or edges.
 
-/// How many there are.
+/// The number of pairs.
 pub const ELEMENT_PAIRS: usize = 15;
-/// The first that is of two edges; those before are of a corner and a triangle.
+/// The number of the first pair of edges; the pairs before are of a corner and a triangle.
 pub const FIRST_OF_EDGES: usize = 6;
 
 /// The elements of a pair of them.
@@ -31,7 +33,8 @@ fn elements(which: usize) -> Elements {
 
 const NEXT: [usize; 3] = [1, 2, 0];
 
-/// The four corners of a pair: a corner and those of the other triangle; or the ends of an edge of the first and of one of the second.
+/// The four corners of a pair: a corner and the other triangle, or the ends of an edge of the first
+/// and of one of the second. `which` is below [`ELEMENT_PAIRS`].
 #[inline]
 pub fn four_corners<T: Copy>(which: usize, a: &[T; 3], b: &[T; 3]) -> [T; 4] {
     match elements(which) {
@@ -47,25 +50,26 @@ pub fn is_swapped(which: usize) -> bool {
     matches!(elements(which), Elements::CornerOfSecond(_))
 }
 
-/// What each corner of either triangle counts in the points that are so far along the elements of a pair: in a triangle a, b, c the point
-/// a + x (b - a) + y (c - a); on two edges the part x of the first and y of the second.
+/// The weights of the corners of either triangle in points that are some way along the elements of
+/// a pair.
+///
+/// In a triangle a, b, c the point is a + x (b - a) + y (c - a). On two edges it is the part x of
+/// the first and y of the second.
 pub fn barycentric(which: usize, [x, y]: [f64; 2]) -> [[f64; 3]; 2] {
-    let mut corner = [0.0; 3];
-    let of_triangle = [(1.0 - x - y).max(0.0), x, y];
     match elements(which) {
-        Elements::CornerOfFirst(i) => {
-            corner[i] = 1.0;
-            [corner, of_triangle]
-        }
-        Elements::CornerOfSecond(i) => {
-            corner[i] = 1.0;
-            [of_triangle, corner]
-        }
+        // A corner is an end of an edge.
+        Elements::CornerOfFirst(i) => [on_edge(i, 0.0), in_triangle([x, y])],
+        Elements::CornerOfSecond(i) => [in_triangle([x, y]), on_edge(i, 0.0)],
         Elements::Edges([i, j]) => [on_edge(i, x), on_edge(j, y)],
     }
 }
 
-/// What each corner counts in a point of an edge.
+/// The weights of the corners of a triangle a, b, c in the point a + x (b - a) + y (c - a).
+pub(super) fn in_triangle([x, y]: [f64; 2]) -> [f64; 3] {
+    [(1.0 - x - y).max(0.0), x, y]
+}
+
+/// The weights of the corners of a triangle in the point that is the part `along` of an edge.
 pub fn on_edge(edge: usize, along: f64) -> [f64; 3] {
     let mut counts = [0.0; 3];
     counts[edge] = 1.0 - along;

@@ -1,8 +1,9 @@
-//! Whether the gap of two boxes is at most a distance on every axis, in real arithmetic on the numbers given.
+//! Whether the gap of two boxes is at most a distance on every axis, in real arithmetic.
 //!
-//! On an axis the gap of two intervals is the larger of lo_a - hi_b and lo_b - hi_a, negative where they overlap. Rounding is monotonic,
-//! so a rounded difference on one side of a number says on which side the difference is; only if it is that number is it not known, and
-//! then the error of the subtraction, which is a floating-point number, decides.
+//! On an axis the gap of two intervals is the larger of lo_a - hi_b and lo_b - hi_a, negative where
+//! they overlap. Rounding is monotonic, so a rounded difference on one side of a number says on
+//! which side the difference is. Only if it is that number is it not known. Then the error of the
+//! subtraction, which is a floating-point number, decides.
 
 use super::Point;
 
@@ -13,13 +14,15 @@ fn is_within(lo: f64, hi: f64, distance: f64) -> bool {
     if difference != distance {
         return difference < distance;
     }
-    // The error of a subtraction (Knuth 1969): exact, as nothing overflows. Coordinates are at most `f32::MAX`.
+    // The error of a subtraction (Knuth 1969): exact, as nothing overflows. Coordinates are at most
+    // `f32::MAX`.
     let of_lo = difference + hi;
     let error = (lo - of_lo) - (hi - (of_lo - difference));
     error <= 0.0
 }
 
-/// Whether two boxes, each by its lower and its upper corner, are at most `distance` apart on every axis.
+/// Whether two boxes, each by its lower and its upper corner, are at most `distance` apart on every
+/// axis.
 ///
 /// Exact, in real arithmetic on the numbers given. The distance is at least 0 and may be infinite.
 ///

@@ -1,19 +1,22 @@
-//! Integers of any size, for what floating point leaves undecided. Nothing is rounded.
+//! Integers of any size, for what floating point leaves undecided: nothing is rounded.
 //!
-//! Every coordinate is an integer of units of 2^-1074 and below 2^128, so it has 1202 bits; but the coordinates of one question are all
-//! counted in the largest power of two that they are multiples of, and mostly have less than 60. So most numbers that come up have room in
-//! place, and only the longest are allocated.
+//! Every coordinate is an integer of units of 2^-1074 and below 2^128, so it has 1202 bits. But the
+//! coordinates of one question are all counted in the largest power of two that they are multiples
+//! of. Mostly they have less than 60 bits then. So most numbers that come up have room in place,
+//! and only the longest are allocated.
 
+use super::float::{power, scaled};
+use super::ring::Ring;
 use std::cmp::Ordering;
 
-/// So many limbs have room in place.
+/// The number of limbs that have room in place.
 const IN_PLACE: usize = 10;
 
 /// An integer.
 #[derive(Clone, Debug)]
 pub(super) struct Integer {
     is_negative: bool,
-    /// So many limbs are used; the last of them is not zero.
+    /// How many limbs are used; the last of them is not zero.
     len: usize,
     /// The least first; those that are not used are zero.
     few: [u64; IN_PLACE],
@@ -21,22 +24,24 @@ pub(super) struct Integer {
     many: Vec<u64>,
 }
 
-/// The largest power of two that a finite number is a multiple of, and the smallest that it is below; none for zero.
+/// The largest power of two that a finite number is a multiple of, and the smallest that it is
+/// below; none for zero.
 pub(super) fn powers(x: f64) -> Option<[i32; 2]> {
     let (_, integer, exponent) = parts(x);
     let [low, high] = [integer.trailing_zeros(), 64 - integer.leading_zeros()];
     (integer != 0).then(|| [low, high].map(|power| exponent + power as i32))
 }
 
-/// The largest power of two that all of these are multiples of, and the smallest that all are below.
+/// The largest power of two that all of these are multiples of, and the smallest that all are
+/// below.
 pub(super) fn powers_of_all<'x>(numbers: impl IntoIterator<Item = &'x f64>) -> [i32; 2] {
     let powers = numbers.into_iter().filter_map(|&x| powers(x));
     let both = powers.reduce(|[low, high], [l, h]| [low.min(l), high.max(h)]);
     both.unwrap_or([0; 2])
 }
 
-/// The sign, and the integer and the exponent of two whose product a number is; of bits, so that a thread that flushes subnormal
-/// numbers sees them.
+/// The sign, the integer and the exponent of a number, which is that integer times a power of two.
+/// Read from its bits, so that a thread that flushes subnormal numbers sees them.
 pub(super) fn parts(x: f64) -> (bool, u64, i32) {
     let bits = x.to_bits();
     let (fraction, biased) = (bits & ((1 << 52) - 1), (bits >> 52 & 0x7ff) as i32);
@@ -56,7 +61,7 @@ impl Integer {
         many: Vec::new(),
     };
 
-    /// Zero, with room for so many limbs.
+    /// Zero, with room for some limbs.
     fn with_room(len: usize) -> Self {
         let mut zero = Self::ZERO;
         if len > IN_PLACE {
@@ -97,7 +102,7 @@ impl Integer {
         }
     }
 
-    /// Of so many limbs perhaps some at the end are not used.
+    /// Counts the limbs that are used, after some were written, the last of which may be zero.
     fn trim(&mut self, len: usize) {
         let used = self.room()[..len].iter().rposition(|&limb| limb != 0);
         self.len = used.map_or(0, |last| last + 1);
@@ -143,12 +148,12 @@ impl Integer {
         new
     }
 
-    /// The largest power of two that it is a multiple of; 0 of zero.
+    /// The largest power of two that it is a multiple of; of zero the largest number there is.
     pub(super) fn trailing_zeros(&self) -> usize {
-        let limbs = self.limbs();
-        let lowest = limbs.iter().position(|&limb| limb != 0);
-        lowest.map_or(0, |place| {
-            64 * place + limbs[place].trailing_zeros() as usize
+        let mut limbs = self.limbs().iter().enumerate();
+        let lowest = limbs.find(|&(_, &limb)| limb != 0);
+        lowest.map_or(usize::MAX, |(place, limb)| {
+            64 * place + limb.trailing_zeros() as usize
         })
     }
 
@@ -170,17 +175,14 @@ impl Integer {
         self
     }
 
+    pub(super) fn magnitude(mut self) -> Self {
+        self.is_negative = false;
+        self
+    }
+
     fn compare_magnitudes(&self, other: &Self) -> Ordering {
         let [a, b] = [self, other].map(|it| it.limbs().iter().rev());
         self.len.cmp(&other.len).then_with(|| a.cmp(b))
-    }
-
-    pub(super) fn plus(&self, other: &Self) -> Self {
-        self.plus_signed(other, other.is_negative)
-    }
-
-    pub(super) fn minus(&self, other: &Self) -> Self {
-        self.plus_signed(other, !other.is_negative)
     }
 
     /// The sum of this and another, as if the other had this sign.
@@ -195,30 +197,60 @@ impl Integer {
         let is_difference = self.is_negative != is_negative;
         let room = &mut sum.room()[..len];
         room[..large.len].copy_from_slice(large.limbs());
-        let mut carry = false;
+        let mut carry = 0;
         for (place, limb) in room.iter_mut().enumerate() {
             let by = small.limbs().get(place).copied();
-            if by.is_none() && !carry {
+            if by.is_none() && carry == 0 {
                 break;
             }
-            let by = by.unwrap_or(0);
-            let (first, over) = if is_difference {
-                limb.overflowing_sub(by)
+            let (all, by) = (u128::from(*limb), u128::from(by.unwrap_or(0)) + carry);
+            let wide = if is_difference {
+                all.wrapping_sub(by)
             } else {
-                limb.overflowing_add(by)
+                all + by
             };
-            let (second, again) = if is_difference {
-                first.overflowing_sub(carry.into())
-            } else {
-                first.overflowing_add(carry.into())
-            };
-            (*limb, carry) = (second, over | again);
+            // The bit above a limb is carried, or borrowed.
+            (*limb, carry) = (wide as u64, wide >> 64 & 1);
         }
         sum.trim(len);
         sum
     }
 
-    pub(super) fn times(&self, other: &Self) -> Self {
+    pub(super) fn compare(&self, other: &Self) -> Ordering {
+        self.minus(other).sign().cmp(&0)
+    }
+
+    pub(super) fn is_at_most(&self, other: &Self) -> bool {
+        self.compare(other).is_le()
+    }
+
+    /// A number m and an exponent e: the integer is m 2^e within 2^-52 of itself. |m| is from 1 to
+    /// 2, or zero.
+    pub(super) fn approximately(&self) -> (f64, i32) {
+        let Some(last) = self.len.checked_sub(1) else {
+            return (0.0, 0);
+        };
+        let limbs = self.limbs();
+        let high = limbs[last];
+        let below = if last > 0 { limbs[last - 1] } else { 0 };
+        let zeros = high.leading_zeros();
+        let top = ((u128::from(high) << 64 | u128::from(below)) << zeros >> 64) as u64;
+        let magnitude = top as f64 * power(-63);
+        let m = magnitude * f64::from(self.sign());
+        (m, (64 * last) as i32 + 63 - zeros as i32)
+    }
+}
+
+impl Ring for Integer {
+    fn plus(&self, other: &Self) -> Self {
+        self.plus_signed(other, other.is_negative)
+    }
+
+    fn minus(&self, other: &Self) -> Self {
+        self.plus_signed(other, !other.is_negative)
+    }
+
+    fn times(&self, other: &Self) -> Self {
         let len = self.len + other.len;
         let mut product = Self::with_room(len);
         product.is_negative = self.is_negative != other.is_negative;
@@ -241,36 +273,28 @@ impl Integer {
         product.trim(len);
         product
     }
-
-    pub(super) fn is_at_most(&self, other: &Self) -> bool {
-        self.minus(other).sign() <= 0
-    }
-
-    /// A number m and an exponent e so that it is m 2^e but for an error of 2^-52 of itself: |m| from 1 to 2, or zero.
-    pub(super) fn approximately(&self) -> (f64, i32) {
-        let Some(last) = self.len.checked_sub(1) else {
-            return (0.0, 0);
-        };
-        let limbs = self.limbs();
-        let high = limbs[last];
-        let below = if last > 0 { limbs[last - 1] } else { 0 };
-        let zeros = high.leading_zeros();
-        let top = ((u128::from(high) << 64 | u128::from(below)) << zeros >> 64) as u64;
-        let magnitude = top as f64 * f64::powi(0.5, 63);
-        let m = if self.is_negative {
-            -magnitude
-        } else {
-            magnitude
-        };
-        (m, (64 * last) as i32 + 63 - zeros as i32)
-    }
 }
 
-/// Nearly the quotient of two integers, the second of which is not zero: a number from a half to 2, or zero, times a power of two; off by
-/// 2^-50 of itself.
+/// Nearly the quotient of two integers, the second of which is not zero: a number times a power of
+/// two. The number is from a half to 2, or zero; it is off by 2^-50 of itself.
 pub(super) fn quotient(over: &Integer, under: &Integer) -> (f64, i32) {
     let [(m, e), (by, of_by)] = [over, under].map(Integer::approximately);
     (m / by, e - of_by)
+}
+
+/// Nearly some integers, divided by one power of two so that the largest is from 1 to 2 in
+/// magnitude. Each is off by 2^-52 of itself, or, below the normal range, by what is lost there.
+pub(super) fn in_proportion<const N: usize>(integers: &[Integer; N]) -> [f64; N] {
+    let all = integers.each_ref().map(Integer::approximately);
+    let exponents = all.iter().filter(|(m, _)| *m != 0.0).map(|&(_, e)| e);
+    let largest = exponents.max().unwrap_or(0);
+    all.map(|(m, e)| {
+        if m == 0.0 {
+            0.0
+        } else {
+            scaled(m, e - largest)
+        }
+    })
 }
 
 impl From<u64> for Integer {
@@ -335,7 +359,7 @@ mod tests {
                 );
             }
         }
-        assert_eq!(Integer::ZERO.trailing_zeros(), 0);
+        assert_eq!(Integer::ZERO.trailing_zeros(), usize::MAX);
     }
 
     #[test]

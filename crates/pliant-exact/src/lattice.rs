@@ -1,14 +1,10 @@
-//! Signs in integers, for two triangles whose six corners lie on one lattice: the middle stage, for contact that is exact.
+//! Signs in integers, for two triangles on one lattice: the middle stage, for exact contact.
 //!
-//! Floating point is never certain of a zero, and adaptive expansions take long to find one; two flat faces that touch have fifteen
-//! for every pair of triangles. But coordinates that give zeros are seldom far apart in size. If all are multiples of 2^-38
-//! times the largest, then scaled they are integers below 2^39, differences are below 2^40, and a determinant of them is a sum of
-//! six products below 2^120: it fits 128 bits, and its sign is exact.
-//!
-//! ```text
-//! largest of 18 coordinates in [2^k, 2^(k+1))     scale 2^(38 - k): a power of two, so that scaling is exact
-//! each coordinate, scaled, an integer?            else there is no such lattice, and the caller does without
-//! ```
+//! Floating point is never certain of a zero, and adaptive expansions take long to find one. Two
+//! flat faces that touch have fifteen for every pair of triangles. But coordinates that give zeros
+//! are seldom far apart in size. If all are multiples of 2^-38 times the largest, then scaled they
+//! are integers below 2^39, and differences are below 2^40. A determinant of them is a sum of six
+//! products below 2^120: it fits 128 bits, and its sign is exact.
 
 use super::orientation::{Orientation, are_from};
 use super::point::{Point, Sign, Triangle};
@@ -17,10 +13,16 @@ use super::point::{Point, Sign, Triangle};
 const BITS: u64 = 38;
 
 /// Two triangles scaled to integers, if that is exact.
+///
+/// ```text
+/// largest of 18 coordinates in [2^k, 2^(k+1))    scale 2^(38 - k): a power of two, so exact
+/// each coordinate, scaled, an integer?           else there is no such lattice
+/// ```
 pub(super) fn on_lattice(a: &Triangle, b: &Triangle) -> Option<[Triangle; 2]> {
     let coordinates = a.as_flattened().iter().chain(b.as_flattened());
     let largest = coordinates.fold(0, |largest, x| largest.max(x.to_bits() & !SIGN));
-    // Of the scale: the exponent as it is stored, 1023 for one. Where there is none, coordinates are too small, or all are zero.
+    // Of the scale: the exponent as it is stored, 1023 for one. Where there is none, coordinates
+    // are too small, or all are zero.
     let exponent = 2 * 1023 + BITS - (largest >> 52);
     if exponent >= 2 * 1023 {
         return None;

@@ -1,42 +1,24 @@
 //! On which side of a plane a point lies: the sign of a 3 x 3 determinant, exactly.
 //!
-//! For points a, b, c, d let n = (b - a) x (c - a) and t = d - a; the orientation is the sign of n . t. In floating point, with
-//! u = 2^-53, each difference carries one rounding, each component of n two differences, a product and a subtraction, and
-//! n . t another difference, a product and two sums: eight roundings on every path. With N_i = |e1_j e2_k| + |e1_k e2_j| the
-//! computed value is off by at most 8 u (N . |t|), to first order, and a ninth u covers the rest and the rounding of the bound
-//! itself. So the sign is certain if
-//!
-//! ```text
-//! |n . t| > 9 u (N . |t|) + underflow (|t_x| + |t_y| + |t_z| + 1)
-//! ```
-//!
-//! where the last term is for results below the normal range. It is zero for f32 input, whose products of three differences stay
-//! far inside f64. For f64 input each such result is off by at most 2^-1022, whether it is rounded to a subnormal number or
-//! flushed to zero: three in a component of n, multiplied by |t_i|, and six in n . t and the bound itself; 2^-1018 covers all.
-//! Differences below the normal range are exact; where a thread flushes them to zero, none arises from coordinates that are zero
-//! or at least 2^-969. The strict comparison leaves NaN uncertain. n . (d - a) is used, never n . d - n . a, whose error grows
-//! with the distance from the origin.
-//!
-//! Where the filter is not certain, `robust::orient3d` (Shewchuk's adaptive expansions) has the last word. With input up to
-//! `f32::MAX` it cannot overflow. Its limit is underflow. If no coordinate but zero is below 2^-288, all are multiples of 2^-340,
-//! whatever it forms from them is a multiple of 2^-1020, and nothing but its error bounds is ever subnormal; an error smaller than
-//! that in a multiple of 2^-1020 is none. For smaller coordinates, which no f32 is, integers of any size have the last word.
-//!
-//! In the plane the same holds with four roundings, and with products of two: expansions are exact from 2^-459.
-//!
-//! So every sign is exact for every f32 and f64 in range.
+//! A filter in double precision decides most signs; its bound is proven at `RELATIVE_ERROR`. Where
+//! it is not certain, `robust::orient3d` (adaptive expansions, Shewchuk 1997) has the last word.
+//! That is exact unless it underflows (`SMALLEST`); for smaller coordinates integers of any size
+//! decide. In the plane the same holds with four roundings, and with products of two: expansions
+//! are exact from 2^-459. So every sign is exact for every f32 and f64 in range.
 
 use super::Precision;
-use super::integer::{Integer, powers_of_all};
+use super::float::{U, power, sign_beyond};
+use super::integer::powers_of_all;
 use super::point::{Point, Sign};
-use super::vector::{cross, dot, in_units, minus};
+use super::vector::{cross_on, determinant, in_units, minus};
 
 /// A source of orientation signs.
 pub(super) trait Orientation {
     /// The side of the plane through a, b, c on which d lies.
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign;
 
-    /// The side of the line through a, b on which c lies, in the plane of two coordinates; exact whatever the source is.
+    /// The side of the line through a, b on which c lies, in the plane of two coordinates; exact
+    /// whatever the source is.
     #[inline]
     fn sign_in_plane(&mut self, a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
         orientation_2d(a, b, c)
@@ -48,10 +30,7 @@ pub(super) struct Exact;
 
 impl Orientation for Exact {
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
-        if [a, b, c, d]
-            .into_iter()
-            .all(|point| are_from(SMALLEST, point))
-        {
+        if [a, b, c, d].iter().all(|point| are_from(SMALLEST, point)) {
             adaptive(a, b, c, d)
         } else {
             in_integers(a, b, c, d)
@@ -59,14 +38,20 @@ impl Orientation for Exact {
     }
 }
 
-/// `robust` is exact if no coordinate but zero is smaller in magnitude: 2^-288.
-const SMALLEST: f64 = f64::from_bits((1023 - 288) << 52);
+/// The smallest coordinate but zero for which `robust` is exact: 2^-288.
+///
+/// With input up to `f32::MAX` it cannot overflow. Its limit is underflow. If no coordinate but
+/// zero is below 2^-288, all are multiples of 2^-340. Then whatever it forms from them is a
+/// multiple of 2^-1020, and nothing but its error bounds is ever subnormal. An error smaller than
+/// that in a multiple of 2^-1020 is none. For smaller coordinates, which no f32 is, integers of any
+/// size have the last word.
+const SMALLEST: f64 = power(-288);
 
-/// The same in the plane: 2^-459.
-const SMALLEST_2D: f64 = f64::from_bits((1023 - 459) << 52);
+/// The smallest coordinate but zero for which `robust` is exact in the plane: 2^-459.
+const SMALLEST_2D: f64 = power(-459);
 
-/// Whether each coordinate is zero or at least `smallest` in magnitude. As integers: a thread that flushes subnormal numbers
-/// takes them for zero.
+/// Whether each coordinate is zero or at least `smallest` in magnitude. As integers: a thread that
+/// flushes subnormal numbers takes them for zero.
 #[inline]
 pub(super) fn are_from<const N: usize>(smallest: f64, point: &[f64; N]) -> bool {
     // Zero, less one, is the largest of all. No early exit: comparisons without a branch.
@@ -103,14 +88,34 @@ impl Filtered {
     }
 }
 
-/// 9 u.
-const RELATIVE_ERROR: f64 = 9.0 * (f64::EPSILON / 2.0);
+/// The relative error of the filter: 9 u, with u = 2^-53.
+///
+/// For points a, b, c, d let n = (b - a) x (c - a) and t = d - a. The orientation is the sign of n
+/// . t. In floating point each difference carries one rounding; each component of n two
+/// differences, a product and a subtraction. The product n . t has another difference, a product
+/// and two sums: eight roundings on every path. Let N_i = |e1_j e2_k| + |e1_k e2_j|. The computed
+/// value is off by at most 8 u (N . |t|), to first order. A ninth u covers the rest and the
+/// rounding of the bound itself. So the sign is certain if
+///
+/// ```text
+/// |n . t| > 9 u (N . |t|) + underflow (|t_x| + |t_y| + |t_z| + 1)
+/// ```
+///
+/// The last term is for results below the normal range. It is zero for f32 input, whose products of
+/// three differences stay far inside f64. For f64 input each such result is off by at most 2^-1022,
+/// whether it is rounded to a subnormal number or flushed to zero. There are three in a component
+/// of n, multiplied by |t_i|, and six in n . t and the bound itself; 2^-1018 covers all.
+/// Differences below the normal range are exact. Where a thread flushes them to zero, none arises
+/// from coordinates that are zero or at least 2^-969.
+///
+/// The strict comparison leaves NaN uncertain. The formula is n . (d - a), never n . d - n . a,
+/// whose error grows with the distance from the origin.
+const RELATIVE_ERROR: f64 = 9.0 * U;
 
 impl Orientation for Filtered {
     #[inline]
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
-        let difference = |p: &Point| -> Point { std::array::from_fn(|axis| p[axis] - a[axis]) };
-        let (e1, e2, t) = (difference(b), difference(c), difference(d));
+        let [e1, e2, t] = [b, c, d].map(|p| minus(p, a));
         let (mut determinant, mut magnitude) = (0.0, 0.0);
         for i in 0..3 {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
@@ -123,19 +128,16 @@ impl Orientation for Filtered {
             return sign_of(determinant);
         }
         self.uncertain = true;
-        if self.underflow == 0.0 {
-            // No f32 is too small for it.
-            adaptive(a, b, c, d)
-        } else {
-            Exact.sign(a, b, c, d)
-        }
+        Exact.sign(a, b, c, d)
     }
 }
 
-/// The side of the line through a, b on which c lies, in the plane of the first two coordinates given; exact.
+/// The side of the line through a, b on which c lies, in the plane of the first two coordinates
+/// given; exact.
 #[inline]
 pub(super) fn orientation_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
-    // Whatever the input, the underflow of f64: it is far below what two differences of f32 can make.
+    // Whatever the input, the underflow of f64: it is far below what two differences of f32 can
+    // make.
     let left = (b[0] - a[0]) * (c[1] - a[1]);
     let right = (b[1] - a[1]) * (c[0] - a[0]);
     let determinant = left - right;
@@ -151,8 +153,8 @@ pub(super) fn orientation_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
     }
 }
 
-/// 5 u.
-const RELATIVE_ERROR_2D: f64 = 5.0 * (f64::EPSILON / 2.0);
+/// The relative error of the filter in the plane: 5 u.
+const RELATIVE_ERROR_2D: f64 = 5.0 * U;
 
 /// The sign by expansions, as exact as `SMALLEST_2D` says.
 fn adaptive_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
@@ -160,28 +162,27 @@ fn adaptive_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
     sign_of(robust::orient2d(coord(a), coord(b), coord(c)))
 }
 
-/// In integers: of any coordinates, whether or not the thread keeps subnormal numbers, because only bits are read.
+/// In integers: of any coordinates, whether or not the thread keeps subnormal numbers, because only
+/// bits are read.
 #[cold]
 fn in_integers(a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
     let [unit, _] = powers_of_all([a, b, c, d].into_iter().flatten());
     let [a, b, c, d] = [a, b, c, d].map(|point| in_units(point, unit));
-    let normal = cross(&minus(&b, &a), &minus(&c, &a));
-    dot(&normal, &minus(&d, &a)).sign()
+    let [e1, e2, t] = [b, c, d].map(|p| minus(&p, &a));
+    determinant(&e1, &e2, &t).sign()
 }
 
-/// The same in the plane.
+/// The side in the plane, in integers.
 #[cold]
 fn in_integers_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
     let [unit, _] = powers_of_all([a, b, c].as_flattened());
-    let [a, b, c] = [a, b, c].map(|point| point.map(|x| Integer::new(x, unit)));
-    let difference = |p: &[Integer; 2]| [p[0].minus(&a[0]), p[1].minus(&a[1])];
-    let (e, t) = (difference(&b), difference(&c));
-    e[0].times(&t[1]).minus(&e[1].times(&t[0])).sign()
+    let [a, b, c] = [a, b, c].map(|[x, y]| in_units(&[x, y, 0.0], unit));
+    cross_on(2, &minus(&b, &a), &minus(&c, &a)).sign()
 }
 
-/// Of a determinant; of points out of range perhaps of no number, whose sign is said to be 0.
+/// The sign of a determinant; of points out of range perhaps of no number, whose sign is 0.
 fn sign_of(value: f64) -> Sign {
-    i8::from(value > 0.0) - i8::from(value < 0.0)
+    sign_beyond(value, 0.0)
 }
 
 #[cfg(test)]
@@ -261,8 +262,9 @@ mod tests {
 
     #[test]
     fn products_that_underflow_in_part_are_not_trusted() {
-        // Lattice points scaled to where products of two differences keep a few bits, or none, and a factor of ordinary size
-        // lifts what is left above the relative bound. Above 2^-305 the answer is still that of the lattice.
+        // Lattice points scaled to where products of two differences keep a few bits, or none, and
+        // a factor of ordinary size lifts what is left above the relative bound. Above 2^-305 the
+        // answer is still that of the lattice.
         let mut state = 5_u64;
         let mut next = |range: i64| {
             state = state
@@ -286,7 +288,8 @@ mod tests {
                 let [a, b, c, d] = scaled;
                 let expected = integer(points);
                 lattices += 1;
-                // The filter alone, with the term: certain signs are right. (`robust` is past its limit here and is not asked.)
+                // The filter alone, with the term: certain signs are right. (`robust` is past its
+                // limit here and is not asked.)
                 let filter = |underflow| {
                     let mut filtered = Filtered::new(underflow);
                     let sign = filtered.sign(&a, &b, &c, &d);
@@ -308,14 +311,16 @@ mod tests {
 
     /// Multiplies with 2^exponent; exact for integers.
     fn scaled(points: [Point; 4], exponents: [i32; 3]) -> [Point; 4] {
-        // In two steps, as powi does not reach the smallest powers; the first is exact for the numbers of these tests.
+        // In two steps, as powi does not reach the smallest powers; the first is exact for the
+        // numbers of these tests.
         let by = |x: f64, exponent: i32| {
             x * 2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2)
         };
         points.map(|p| std::array::from_fn(|axis| by(p[axis], exponents[axis])))
     }
 
-    /// The oracle's sign, after every source of signs gave the same. Counts signs of which the filter was certain.
+    /// The oracle's sign, after every source of signs gave the same. Counts signs of which the
+    /// filter was certain.
     fn check([a, b, c, d]: [Point; 4], certain: &mut u32) -> Sign {
         let expected = pliant_oracle::orientation(&a, &b, &c, &d);
         assert_eq!(
@@ -359,7 +364,8 @@ mod tests {
                 if round % 3 == 0 {
                     points[3] = std::array::from_fn(|i| points[1][i] + points[2][i] - points[0][i]);
                 }
-                // All axes at this scale, or one or two of ordinary size, which lift what the others lost.
+                // All axes at this scale, or one or two of ordinary size, which lift what the
+                // others lost.
                 let exponents = match round % 4 {
                     0 | 1 => [exponent; 3],
                     2 => [exponent, exponent, 0],
@@ -371,7 +377,8 @@ mod tests {
                 (100..1_900).contains(&zeros),
                 "{zeros} zeros at 2^{exponent}"
             );
-            // From 2^-340 there is nothing left that a filter could be certain of, but with an axis of ordinary size.
+            // From 2^-340 there is nothing left that a filter could be certain of, but with an axis
+            // of ordinary size.
             let least = if exponent >= -126 { 1_500 } else { 0 };
             assert!(certain >= least, "{certain} certain at 2^{exponent}");
         }
@@ -391,7 +398,8 @@ mod tests {
         assert!(certain > 20_000, "{certain} certain");
     }
 
-    /// Two differences that round to opposite sides, times numbers so small that the products round to a whole one of them.
+    /// Two differences that round to opposite sides, times numbers so small that the products round
+    /// to a whole one of them.
     #[test]
     fn products_that_underflow_are_not_trusted_in_the_plane() {
         let (unit, tiny) = (2f64.powi(-52), f64::from_bits(1));
@@ -406,8 +414,9 @@ mod tests {
         assert_eq!(orientation_2d(a, b, c), 1);
     }
 
-    /// Four points with all their 53 bits, the last nearly on the plane of the others, and three nearly on a line. The smallest
-    /// coordinates, if not zero, are from 2^exponent to four times that.
+    /// Four points with all their 53 bits, the last nearly on the plane of the others, and three
+    /// nearly on a line. The smallest coordinates, if not zero, are from 2^exponent to four times
+    /// that.
     fn at_the_limit(
         random: &mut pliant_oracle::Random,
         exponent: i32,

@@ -1,26 +1,32 @@
-//! Triangle against triangle as six edge-triangle tests over fifteen shared signs, without special cases.
+//! Triangle against triangle: six edge-triangle tests over fifteen shared signs, without special
+//! cases.
 //!
-//! For closed triangles A = a0 a1 a2 and B = b0 b1 b2 take the orientation of each corner of B against A (three plane signs),
-//! of each corner of A against B (three), and of each edge of A with each edge of B (nine edge signs).
-//!
-//! 1. All plane signs of one side are positive, or all negative: **no**; that triangle lies on one side of the other's plane.
-//! 2. All six are zero. If an edge sign is not, the triangles are two skew segments: **no**. Else all six corners lie in one
-//!    plane, and the answer is the **and** of closed two-dimensional tests in the three axis projections: what meets, meets in
-//!    all of them; what does not is kept apart by one of them at least. No axis has to be chosen.
-//! 3. Else **yes** if and only if some edge of either triangle has plane signs that are not both zero and do not agree, and its
-//!    three edge signs with the other triangle are all >= 0 or all <= 0: it crosses or touches the plane, and its line passes
-//!    through the triangle. Edges in the plane need not be looked at: other edges end where they end.
-//!
-//! A degenerate triangle (a segment, a point) is no case of its own. The tests check all of this against an independent
-//! definition, 0 in the convex hull of all a_i - b_j, in integer arithmetic.
-//!
-//! Guigue and Devillers (2003) need fewer determinants, but canonical rotations of the corners, and branches for the
-//! degenerate that this formulation does not have.
+//! The signs are the sides of planes on which corners lie, and on which edges pass each other. A
+//! degenerate triangle (a segment, a point) is no case of its own. The tests check this against an
+//! independent definition, 0 in the convex hull of all a_i - b_j, in integer arithmetic. Guigue and
+//! Devillers (2003) need fewer determinants. But they need canonical rotations of the corners, and
+//! branches for what is degenerate, which this formulation does not have.
 
 use super::orientation::Orientation;
-use super::point::{Sign, Triangle};
+use super::point::{PLANES, Point2, Sign, Triangle, projected};
 
 /// Whether two closed triangles have a point in common.
+///
+/// Let A = a0 a1 a2 and B = b0 b1 b2 be closed triangles. Take the orientation of each corner of B
+/// against A (three plane signs) and of each corner of A against B (three). Take it of each edge of
+/// A with each edge of B, too (nine edge signs).
+///
+/// 1. All plane signs of one side are positive, or all negative: **no**; that triangle lies on one
+///    side of the other's plane.
+/// 2. All six are zero. If an edge sign is not, the triangles are two skew segments: **no**. Else
+///    all six corners lie in one plane. The answer is the **and** of closed two-dimensional tests
+///    in the three axis projections: what meets, meets in all of them. What does not is kept apart
+///    by one of them at least. No axis has to be chosen.
+/// 3. Else the answer is **yes** if and only if of some edge of either triangle two things hold.
+///    Its plane signs are not both zero and do not agree; and its three edge signs with the other
+///    triangle are all >= 0 or all <= 0. It crosses or touches the plane, and its line passes
+///    through the triangle. Edges in the plane need not be looked at: other edges end where they
+///    end.
 #[inline]
 pub(super) fn triangles_intersect(
     a: &Triangle,
@@ -60,15 +66,15 @@ pub(super) fn plane_signs(
 }
 
 #[inline]
-fn one_side(signs: [Sign; 3]) -> bool {
+pub(super) fn one_side(signs: [Sign; 3]) -> bool {
     signs == [1; 3] || signs == [-1; 3]
 }
 
 /// Whether edge `i` meets the plane without lying in it.
 #[inline]
 fn crosses(signs: [Sign; 3], i: usize) -> bool {
-    let (start, end) = (signs[i], signs[(i + 1) % 3]);
-    start * end <= 0 && (start, end) != (0, 0)
+    let [start, end] = edge(&signs, i);
+    start * end <= 0 && [start, end] != [0, 0]
 }
 
 /// All >= 0 or all <= 0.
@@ -77,7 +83,8 @@ fn agree(signs: [Sign; 3]) -> bool {
     signs.iter().all(|&sign| sign >= 0) || signs.iter().all(|&sign| sign <= 0)
 }
 
-/// Whether triangles whose six plane signs are zero lie in one plane: false only for two skew segments.
+/// Whether triangles whose six plane signs are zero lie in one plane: false only for two skew
+/// segments.
 fn in_one_plane(a: &Triangle, b: &Triangle, orientation: &mut impl Orientation) -> bool {
     (0..3).all(|i| {
         (0..3).all(|j| orientation.sign(&a[i], &a[(i + 1) % 3], &b[j], &b[(j + 1) % 3]) == 0)
@@ -85,23 +92,28 @@ fn in_one_plane(a: &Triangle, b: &Triangle, orientation: &mut impl Orientation) 
 }
 
 fn intersect_in_one_plane(a: &Triangle, b: &Triangle, orientation: &mut impl Orientation) -> bool {
-    [(0, 1), (1, 2), (2, 0)].into_iter().all(|(x, y)| {
-        let project = |triangle: &Triangle| triangle.map(|point| [point[x], point[y]]);
-        intersect_2d(&project(a), &project(b), orientation)
+    PLANES.into_iter().all(|plane| {
+        let [a, b] = [a, b].map(|triangle| projected(triangle, plane));
+        intersect_2d(&a, &b, orientation)
     })
 }
 
-type Point2 = [f64; 2];
-
-/// Closed triangles of the plane: an edge meets an edge, or one triangle holds a corner of the other.
+/// Closed triangles of the plane: an edge meets an edge, or one triangle holds a corner of the
+/// other.
 fn intersect_2d(a: &[Point2; 3], b: &[Point2; 3], orientation: &mut impl Orientation) -> bool {
-    let edge = |triangle: &[Point2; 3], i: usize| [triangle[i], triangle[(i + 1) % 3]];
     (0..3).any(|i| (0..3).any(|j| segments_meet(edge(a, i), edge(b, j), orientation)))
         || holds(a, b[0], orientation)
         || holds(b, a[0], orientation)
 }
 
-/// Closed segments, points included: their boxes overlap and neither lies on one side of the other's line.
+/// An edge, from the corner with its number to the next.
+#[inline]
+pub(super) fn edge<T: Copy>(triangle: &[T; 3], i: usize) -> [T; 2] {
+    [triangle[i], triangle[(i + 1) % 3]]
+}
+
+/// Closed segments, points included: their boxes overlap and neither lies on one side of the
+/// other's line.
 fn segments_meet(
     [p0, p1]: [Point2; 2],
     [q0, q1]: [Point2; 2],
@@ -117,7 +129,8 @@ fn segments_meet(
         && sign(q0, q1, p0) * sign(q0, q1, p1) <= 0
 }
 
-/// Whether a closed triangle holds a point. The box is for the triangle that is a segment or a point.
+/// Whether a closed triangle holds a point. The box is for the triangle that is a segment or a
+/// point.
 fn holds(triangle: &[Point2; 3], point: Point2, orientation: &mut impl Orientation) -> bool {
     let in_box = (0..2).all(|axis| {
         let [a, b, c] = triangle.map(|corner| corner[axis]);
@@ -135,8 +148,9 @@ mod tests {
 
     type Lattice = [[i64; 3]; 3];
 
-    /// Two convex sets meet if and only if 0 is in the convex hull of their differences. By Carathéodory it is then in that of
-    /// at most four of the nine differences a_i - b_j; here in integers, from the smallest simplex up.
+    /// Two convex sets meet if and only if 0 is in the convex hull of their differences. By
+    /// Carathéodory it is then in that of at most four of the nine differences a_i - b_j; here in
+    /// integers, from the smallest simplex up.
     fn zero_in_hull_of_differences(a: &Lattice, b: &Lattice) -> bool {
         let sub = |p: [i64; 3], q: [i64; 3]| -> [i64; 3] { std::array::from_fn(|i| p[i] - q[i]) };
         let cross = |p: [i64; 3], q: [i64; 3]| -> [i64; 3] {
@@ -176,7 +190,8 @@ mod tests {
         if (0..n).any(|i| (i + 1..n).any(|j| (j + 1..n).any(|k| triangle(d[i], d[j], d[k])))) {
             return true;
         }
-        // A tetrahedron that is not degenerate holds zero: putting zero for a corner never turns it over.
+        // A tetrahedron that is not degenerate holds zero: putting zero for a corner never turns it
+        // over.
         let tetrahedron = |p, q, r, s| {
             let whole = det(sub(q, p), sub(r, p), sub(s, p)).signum();
             // Volumes of (0,q,r,s), (p,0,r,s), (p,q,0,s), (p,q,r,0), oriented as the whole.
@@ -275,7 +290,8 @@ mod tests {
     #[test]
     fn touching_counts() {
         let a = [[0, 0, 0], [4, 0, 0], [0, 4, 0]];
-        // A corner on the face, on an edge, on a corner; an edge across an edge; the triangle itself.
+        // A corner on the face, on an edge, on a corner; an edge across an edge; the triangle
+        // itself.
         for b in [
             [[1, 1, 0], [1, 1, 5], [2, 1, 5]],
             [[2, 0, 0], [2, 0, 5], [3, -1, 5]],

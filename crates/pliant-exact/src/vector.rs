@@ -1,7 +1,8 @@
-//! Vectors of integers, and of doubles: differences, dot and cross products.
+//! Vectors: differences, dot and cross products, of whatever can be added and multiplied.
 
 use super::Point;
 use super::integer::Integer;
+use super::ring::Ring;
 
 /// Three integers of one unit.
 pub(super) type Vector = [Integer; 3];
@@ -11,42 +12,31 @@ pub(super) fn in_units(point: &Point, unit: i32) -> Vector {
     point.map(|x| Integer::new(x, unit))
 }
 
-pub(super) fn minus(p: &Vector, q: &Vector) -> Vector {
-    std::array::from_fn(|i| p[i].minus(&q[i]))
+#[inline]
+pub(super) fn minus<T: Ring>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
+    [0, 1, 2].map(|i| p[i].minus(&q[i]))
 }
 
-pub(super) fn cross(p: &Vector, q: &Vector) -> Vector {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        p[j].times(&q[k]).minus(&p[k].times(&q[j]))
-    })
+#[inline]
+pub(super) fn cross<T: Ring>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
+    [0, 1, 2].map(|axis| cross_on(axis, p, q))
 }
 
-pub(super) fn dot(p: &Vector, q: &Vector) -> Integer {
-    let [x, y, z] = std::array::from_fn(|i| p[i].times(&q[i]));
+/// One component of a cross product.
+#[inline]
+pub(super) fn cross_on<T: Ring>(axis: usize, p: &[T; 3], q: &[T; 3]) -> T {
+    let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+    p[j].times(&q[k]).minus(&p[k].times(&q[j]))
+}
+
+#[inline]
+pub(super) fn dot<T: Ring>(p: &[T; 3], q: &[T; 3]) -> T {
+    let [x, y, z] = [0, 1, 2].map(|i| p[i].times(&q[i]));
     x.plus(&y).plus(&z)
 }
 
-/// The same of doubles, rounded.
-pub(super) mod rounded {
-    use super::Point;
-
-    #[inline]
-    pub(in super::super) fn minus(p: &Point, q: &Point) -> Point {
-        [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
-    }
-
-    #[inline]
-    pub(in super::super) fn cross(p: &Point, q: &Point) -> Point {
-        [
-            p[1] * q[2] - p[2] * q[1],
-            p[2] * q[0] - p[0] * q[2],
-            p[0] * q[1] - p[1] * q[0],
-        ]
-    }
-
-    #[inline]
-    pub(in super::super) fn dot(p: &Point, q: &Point) -> f64 {
-        p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-    }
+/// The determinant of three vectors: (p x q) . r.
+#[inline]
+pub(super) fn determinant<T: Ring>(p: &[T; 3], q: &[T; 3], r: &[T; 3]) -> T {
+    dot(&cross(p, q), r)
 }

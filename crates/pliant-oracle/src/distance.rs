@@ -1,10 +1,11 @@
-//! How far apart convex hulls of a few points are, in integers.
+//! Exact comparison of distances between points, segments and triangles, in integers.
 //!
-//! The distance of two hulls is that of the origin and the hull of all differences of a point of the one and a point of the other. The
-//! point of that which is closest to the origin is in some simplex of these differences, and closest to the origin in all of the
-//! simplex's plane (or line). So each point, segment and triangle of differences is looked at: where the closest point of its plane lies
-//! in it, its distance is that of some points of the hulls, and the least of those is the answer; but where the origin is inside the
-//! hull of differences, which it can be only of two triangles, these intersect, and are 0 apart.
+//! The distance of two hulls is the distance of the origin from the hull of all differences of
+//! their points. The nearest point of that hull is in a simplex of differences, and is the nearest
+//! of the simplex's whole plane or line. So each point, segment and triangle of differences is
+//! examined. If the nearest point of its plane lies in it, its distance is a candidate, and the
+//! least candidate is the answer. If the origin is inside the hull, which only two triangles allow,
+//! they intersect, and the distance is 0.
 
 use crate::hull::minus;
 use crate::integers::{Vector, integers};
@@ -12,11 +13,13 @@ use crate::intersect;
 use dashu_int::IBig;
 use std::cmp::Ordering;
 
-/// Whether the distance of two hulls is less than x, x or more: a point and up to three points, two and two, or three and three.
+/// Compares the distance of two convex hulls with x, exactly.
+///
+/// The hulls are a point and one to three points, two points each, or three points each.
 ///
 /// # Panics
 ///
-/// If a number is not finite, or x negative.
+/// If a number is not finite, x is negative, or the numbers of points are others.
 pub fn compare_distance(a: &[[f64; 3]], b: &[[f64; 3]], x: f64) -> Ordering {
     assert!(x >= 0.0 && matches!([a.len(), b.len()], [1, 1..=3] | [2, 2] | [3, 3]));
     if let ([a, b, c], [d, e, f]) = (a, b)
@@ -49,10 +52,10 @@ pub fn compare_distance(a: &[[f64; 3]], b: &[[f64; 3]], x: f64) -> Ordering {
         for j in i + 1..count {
             let u = minus(&differences[j], p);
             let uu = dot(&u, &u);
-            // p + s u is closest where s u.u = -p.u.
+            // p + s u is nearest where s u.u = -p.u.
             let s = -dot(p, &u);
             if s >= IBig::ZERO && s <= uu && uu != IBig::ZERO {
-                // |p|^2 - (p.u)^2 / u.u
+                // The square of the distance: |p|^2 - (p.u)^2 / u.u
                 some(dot(p, p) * &uu - &s * &s, &uu);
             }
             for k in j + 1..count {
@@ -68,7 +71,7 @@ pub fn compare_distance(a: &[[f64; 3]], b: &[[f64; 3]], x: f64) -> Ordering {
                     && t_whole >= zero
                     && &s_whole + &t_whole <= whole
                 {
-                    // At the closest point (p + s u + t v).p is its square.
+                    // At the nearest point, (p + s u + t v).p is the square of the distance.
                     let over = dot(p, p) * &whole - &s_whole * &s + &t_whole * &pv;
                     some(over, &whole);
                 }
@@ -78,11 +81,11 @@ pub fn compare_distance(a: &[[f64; 3]], b: &[[f64; 3]], x: f64) -> Ordering {
     least
 }
 
-/// Whether the length of the sum of points, each times a number, is less than x, x or more.
+/// Compares the length of a sum of points, each times a factor, with x, exactly.
 ///
 /// # Panics
 ///
-/// If a number is not finite, or x negative.
+/// If a number is not finite, or x is negative.
 pub fn compare_length(sum: &[(f64, [f64; 3])], x: f64) -> Ordering {
     assert!(x >= 0.0);
     let factors: Vec<f64> = sum.iter().map(|term| term.0).chain([1.0]).collect();
@@ -95,12 +98,12 @@ pub fn compare_length(sum: &[(f64, [f64; 3])], x: f64) -> Ordering {
         })
     };
     let total: Vector<IBig> = [0, 1, 2].map(along);
-    // The last factor is one in their units.
+    // The last factor is one, in the units of the factors.
     let x = factors[sum.len()].clone() * &coordinates[3 * sum.len()];
     dot(&total, &total).cmp(&(&x * &x))
 }
 
-/// Whether direction . (p - q) is less than x, x or more.
+/// Compares direction . (p - q) with x, exactly.
 ///
 /// # Panics
 ///
@@ -131,7 +134,7 @@ mod tests {
             ([1.0, 1.0, 0.0], 0.0),
             ([-3.0, -4.0, 12.0], 13.0),
             ([2.0, -3.0, 4.0], 5.0),
-            // Beyond the long side: its middle is 2, 2.
+            // Beyond the long side, whose middle is (2, 2).
             ([5.0, 5.0, 0.0], 18f64.sqrt()),
         ] {
             let is = |x: f64| compare_distance(&[point], &triangle, x);

@@ -1,7 +1,10 @@
-//! A thread whose caller has switched subnormal numbers off, as audio code and some physics engines do.
+//! A thread whose caller has switched subnormal numbers off, as audio code and some physics engines
+//! do.
 
-/// Runs `work` with flush-to-zero and denormals-are-zero set, and sets them back as they were; `None` where there is no way to do
-/// it (only x86-64 is known). A panic in `work` leaves them set, in this thread.
+/// Runs `work` with flush-to-zero and denormals-are-zero set, and restores the control word.
+///
+/// `None` where the processor is not x86-64: no way is known there. A panic in `work` leaves both
+/// set in this thread.
 pub fn subnormals_flushed<T>(work: impl FnOnce() -> T) -> Option<T> {
     #[cfg(target_arch = "x86_64")]
     let result = Some(x86_64::with_control_bits(
@@ -20,18 +23,19 @@ pub fn subnormals_flushed<T>(work: impl FnOnce() -> T) -> Option<T> {
 mod x86_64 {
     use std::arch::asm;
 
-    /// Results that are subnormal become zero.
+    /// Control bit: subnormal results become zero.
     pub(super) const FLUSH_TO_ZERO: u32 = 1 << 15;
-    /// Operands that are subnormal are taken for zero.
+    /// Control bit: subnormal operands count as zero.
     pub(super) const DENORMALS_ARE_ZERO: u32 = 1 << 6;
 
     #[expect(unsafe_code, reason = "there is no safe way to the control word")]
     pub(super) fn with_control_bits<T>(bits: u32, work: impl FnOnce() -> T) -> T {
         let mut before = 0_u32;
-        // SAFETY: stmxcsr writes the four bytes of `before`, ldmxcsr reads those of `during` and `before`; the bits set are defined
-        // ones and raise no exception. Rust supposes the control word to be what it is at the start of a thread. What that
-        // allows the compiler is to compute with constants as if subnormals were kept, so the tests hide theirs from it; memory
-        // safety depends on no rounding. The word is put back before anything else runs.
+        // SAFETY: stmxcsr writes the four bytes of `before`, ldmxcsr reads the four of `during` and
+        // `before`. The bits set are defined and raise no exception. Rust assumes that the control
+        // word is as at the start of the thread. So the compiler may compute with constants as if
+        // subnormals were kept, and the tests hide their constants from it. Memory safety depends
+        // on no rounding. The word is restored before anything else runs.
         unsafe { asm!("stmxcsr [{}]", in(reg) &raw mut before, options(nostack)) };
         let during = before | bits;
         unsafe { asm!("ldmxcsr [{}]", in(reg) &raw const during, options(nostack)) };
@@ -53,7 +57,7 @@ mod tests {
         let both = || (half_of_the_smallest(), twice_a_subnormal());
         let kept = (f64::MIN_POSITIVE / 2.0, f64::MIN_POSITIVE);
         assert_eq!(both(), kept);
-        // Compared outside, where a subnormal is not taken for the zero it should be.
+        // Compared out here, since inside a subnormal would equal zero.
         if let Some(flushed) = subnormals_flushed(both) {
             assert_eq!(flushed, (0.0, 0.0));
         }

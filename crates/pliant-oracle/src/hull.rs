@@ -1,8 +1,9 @@
-//! Whether the origin is in the convex hull of a few points, in exact numbers.
+//! Exact test of whether the origin is in the convex hull of a few points.
 //!
-//! By Carathéodory it is if and only if it is in a simplex of at most four of them: a point, a segment, a triangle, a tetrahedron.
-//! All are looked at, of nine points 255, from the small to the large. A simplex that is degenerate need not be recognised at its own size: the
-//! smaller ones in it were looked at before.
+//! By Carathéodory's theorem it is if and only if it is in a simplex of at most four of the points.
+//! All points, segments, triangles and tetrahedra are tested, from small to large: 255 for nine
+//! points. A degenerate simplex needs no special case, since the smaller ones in it were tested
+//! before.
 
 use crate::integers::{Exact, Ring, Vector};
 
@@ -28,14 +29,16 @@ fn is_zero<I: Exact>(p: &Vector<I>) -> bool {
     p.iter().all(|x| x.sign() == 0)
 }
 
-/// Whether non-negative numbers, not all zero, combine the points to zero.
+/// Whether the origin is in the convex hull of the points.
+///
+/// That is: non-negative factors, not all zero, combine the points to zero.
 pub(crate) fn zero_in_hull<const N: usize, I: Exact>(p: &[Vector<I>; N]) -> bool {
-    // Most pairs of triangles are far apart: all points beyond the origin along one axis.
+    // Most pairs of triangles are far apart: all points are on one side along an axis.
     let beyond = |axis: usize, sign: i8| p.iter().all(|point| point[axis].sign() == sign);
     if (0..3).any(|axis| beyond(axis, 1) || beyond(axis, -1)) {
         return false;
     }
-    // A point, or a segment: zero, or in opposite directions.
+    // A point that is zero, or a segment whose ends are in opposite directions.
     let crosses: [[Option<Vector<I>>; N]; N] =
         std::array::from_fn(|i| std::array::from_fn(|j| (i < j).then(|| cross(&p[i], &p[j]))));
     let cross_of = |i: usize, j: usize| crosses[i][j].as_ref().expect("i < j");
@@ -49,8 +52,9 @@ pub(crate) fn zero_in_hull<const N: usize, I: Exact>(p: &[Vector<I>; N]) -> bool
             return true;
         }
     }
-    // A tetrahedron: with the origin put for one corner after the other its volume never changes its sign. The four add up to
-    // the volume of the whole, so one that is not zero is enough to know that the tetrahedron is one.
+    // A tetrahedron. With the origin in place of one corner after the other, its volume never
+    // changes its sign. The four volumes add up to the volume of the whole. So one that is not zero
+    // proves that the tetrahedron is not degenerate.
     quadruples(N).any(|[i, j, k, l]| {
         let parts = [
             sides[j][k][l],
@@ -62,11 +66,12 @@ pub(crate) fn zero_in_hull<const N: usize, I: Exact>(p: &[Vector<I>; N]) -> bool
     })
 }
 
-/// Whether the origin is inside the convex hull of points, and not on its boundary.
+/// Whether the origin is in the interior of the convex hull of points.
 ///
-/// It is not if and only if some plane through it has all points on one closed side. If the points span space and there is one, there is one
-/// through two of them that are on no line with the origin: normals of such planes are a cone without a line, which is the hull of its
-/// edges, and an edge is where two of its sides meet.
+/// It is not if and only if some plane through it has all points on one closed side. If the points
+/// span space, then one such plane goes through two points that are not in line with the origin.
+/// For the normals of such planes are a cone without a line. The cone is the hull of its edges, and
+/// at an edge two of its sides meet.
 pub(crate) fn zero_inside<const N: usize, I: Exact>(p: &[Vector<I>; N]) -> bool {
     let mut do_span = false;
     for [i, j] in pairs(N) {
@@ -80,18 +85,21 @@ pub(crate) fn zero_inside<const N: usize, I: Exact>(p: &[Vector<I>; N]) -> bool 
         }
         do_span = true;
     }
-    // Sides that are not one way are not all zero.
+    // Signs that are not all of one kind are not all zero.
     do_span
 }
 
-/// Whether all points are in the plane through the origin with this normal, which is not zero, and the origin is inside their hull there:
-/// by the same reason, no line through one of them has all on one closed side.
+/// Whether all points are in a plane through the origin, with the origin in the interior of their
+/// hull there.
+///
+/// `normal` is the plane's normal, and is not zero. For the same reason as in space, no line
+/// through a point has all points on one closed side.
 pub(crate) fn zero_inside_of_plane<const N: usize, I: Exact>(
     p: &[Vector<I>; N],
     normal: &Vector<I>,
 ) -> bool {
     let is_in_plane = |point: &Vector<I>| dot(normal, point).sign() == 0;
-    // Seen along an axis on which the normal is not zero, nothing is flat that was not.
+    // Projected along an axis on which the normal is not zero, no area vanishes.
     let Some(axis) = (0..3).find(|&axis| normal[axis].sign() != 0) else {
         return false;
     };
@@ -110,8 +118,10 @@ pub(crate) fn zero_inside_of_plane<const N: usize, I: Exact>(
     do_span
 }
 
-/// Whether a triangle in one plane with the origin holds it: p x q, q x r and r x p, which are parallel, point one way. They
-/// add up to the triangle's area, so one that is not zero is enough to know that the triangle is one.
+/// Whether a triangle in one plane with the origin contains it.
+///
+/// The cross products p x q, q x r and r x p are parallel. They must have one direction. They add
+/// up to the triangle's area. So one that is not zero proves that the triangle is not degenerate.
 fn in_triangle<I: Exact>([pq, qr, pr]: [&Vector<I>; 3]) -> bool {
     (0..3).any(|axis| {
         // r x p is -(p x r).
@@ -120,7 +130,7 @@ fn in_triangle<I: Exact>([pq, qr, pr]: [&Vector<I>; 3]) -> bool {
     })
 }
 
-/// All >= 0 or all <= 0.
+/// Whether all signs are >= 0, or all <= 0.
 fn one_way(signs: &[i8]) -> bool {
     signs.iter().all(|&sign| sign >= 0) || signs.iter().all(|&sign| sign <= 0)
 }

@@ -1,24 +1,24 @@
-//! Coordinates as integers.
+//! Coordinates as integers, scaled by a common power of two.
 //!
-//! Every finite `f64` is an integer times a power of two. Divided by the smallest of these powers, all coordinates are integers,
-//! and no question about intersection has changed its answer. Where they are small, so is everything computed from them, and 128
-//! bits hold it; else they are big integers.
+//! Every finite `f64` is an integer times a power of two. Division by the smallest of these powers
+//! makes all coordinates integers and changes no answer. Small coordinates, and all that is
+//! computed from them, fit 128 bits; others are big integers.
 
 use dashu_int::IBig;
 
-/// What is added and multiplied without rounding: an implementation has room for all results, or grows.
+/// Exact addition and multiplication. An implementation has room for all results, or grows.
 pub(crate) trait Ring: Clone {
     fn minus(&self, other: &Self) -> Self;
     fn plus(&self, other: &Self) -> Self;
     fn times(&self, other: &Self) -> Self;
 }
 
-/// What the oracle decides with: an exact number, whose sign is known.
+/// An exact number whose sign is known, with which the oracle decides.
 pub(crate) trait Exact: Ring {
     fn sign(&self) -> i8;
 }
 
-/// A point, or a direction.
+/// A point or a direction.
 pub(crate) type Vector<I> = [I; 3];
 
 impl Ring for i128 {
@@ -57,17 +57,20 @@ impl Exact for IBig {
     }
 }
 
-/// Points with integer coordinates.
+/// Points with integer coordinates, small or big.
 pub(crate) enum Scaled {
-    /// Of at most [`SMALL`] bits.
+    /// Coordinates of at most [`SMALL`] bits.
     Small(Vec<Vector<i128>>),
     Big(Vec<Vector<IBig>>),
 }
 
-/// Coordinates below 2^40 have differences below 2^41, products of three below 2^123, and a determinant is six of those.
+/// Most bits of a small coordinate.
+///
+/// Coordinates below 2^40 have differences below 2^41. Products of three are below 2^123, and a
+/// determinant is the sum of six.
 const SMALL: u32 = 40;
 
-/// The same points, all coordinates divided by one power of two.
+/// Scales points to integers, by one power of two for all coordinates.
 pub(crate) fn scale(points: &[[f64; 3]]) -> Scaled {
     let parts: Vec<[(i64, i32); 3]> = points.iter().map(|point| point.map(split)).collect();
     let nonzero = || parts.as_flattened().iter().filter(|part| part.0 != 0);
@@ -94,7 +97,7 @@ fn big(point: [(i64, i32); 3], shift: impl Fn(i32) -> usize) -> Vector<IBig> {
     })
 }
 
-/// Numbers, all divided by one power of two.
+/// Scales numbers to integers, by one power of two for all.
 pub(crate) fn integers(numbers: &[f64]) -> Vec<IBig> {
     let parts: Vec<(i64, i32)> = numbers.iter().map(|&x| split(x)).collect();
     let nonzero = parts.iter().filter(|part| part.0 != 0);
@@ -106,7 +109,7 @@ pub(crate) fn integers(numbers: &[f64]) -> Vec<IBig> {
     parts.iter().map(whole).collect()
 }
 
-/// The odd integer, or zero, and the power of two that `x` is the product of.
+/// Splits `x` into an odd integer, or zero, and the exponent of a power of two.
 fn split(x: f64) -> (i64, i32) {
     assert!(x.is_finite(), "{x} is no coordinate");
     let bits = x.to_bits();
@@ -146,7 +149,7 @@ mod tests {
             f64::MIN_POSITIVE,
         ] {
             let (odd, exponent) = split(x);
-            // In two halves: 2^-1074 is no power that powi reaches without rounding on the way.
+            // In two halves, since powi rounds on the way to 2^-1074.
             let half = exponent / 2;
             assert_eq!(odd as f64 * 2f64.powi(half) * 2f64.powi(exponent - half), x);
             assert!(odd % 2 != 0 || x == 0.0);

@@ -1,9 +1,14 @@
-//! An independent judge of the library's decisions, for tests only.
+//! Test oracle: an independent, exact judge of the library's geometric decisions.
 //!
-//! [`intersect`], [`orientation`] and [`compare_distance`] compute in integers of any size, from a definition that the library does not use, and share no
-//! code with it; so do [`meet_until`], [`first_contact`] and [`compare_first`] of elements in motion. [`Class`] makes pairs of triangles on which the answer is hard to get right, and [`MotionClass`]
-//! motions: the same ones on every machine.
-//! [`subnormals_flushed`] runs code as a thread runs it in which the caller has switched subnormal numbers off.
+//! It computes in integers of any size, from a definition that the library does not use, and shares
+//! no code with it.
+//!
+//! - [`intersect`], [`contact_kind`], [`orientation`] and [`compare_distance`] decide about
+//!   triangles and points at rest.
+//! - [`meet_until`], [`first_contact`] and [`compare_first`] decide about elements in motion.
+//! - [`Class`] generates hard pairs of triangles, and [`MotionClass`] hard motions. Both give the
+//!   same ones on every machine.
+//! - [`subnormals_flushed`] runs code in a thread whose caller has switched subnormal numbers off.
 //!
 //! ```
 //! use pliant_oracle::{Class, Random, intersect};
@@ -31,14 +36,14 @@ pub use pairs::{Class, Random, element_pairs, fits_f32};
 use hull::{cross, determinant, minus, zero_in_hull, zero_inside, zero_inside_of_plane};
 use integers::{Exact, Scaled, Vector, scale};
 
-/// Three corners.
+/// A triangle, by its three corners.
 pub type Triangle = [[f64; 3]; 3];
 
-/// Whether two closed triangles have a point in common, whatever their coordinates; a degenerate triangle is the segment or
-/// point that it is.
+/// Whether two closed triangles intersect, exactly, for any finite coordinates.
 ///
-/// They have if and only if the origin is a difference of their points; the differences of their points are the convex hull of the
-/// nine differences of their corners.
+/// A degenerate triangle is the segment or point that it is. Two triangles intersect if and only if
+/// the origin is a difference of their points. The differences of their points are the convex hull
+/// of the nine differences of their corners.
 ///
 /// # Panics
 ///
@@ -50,21 +55,23 @@ pub fn intersect(a: &Triangle, b: &Triangle) -> bool {
     }
 }
 
-/// How two closed triangles have points in common.
+/// Kind of contact of two closed triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ContactKind {
-    /// They have none.
+    /// No point in common.
     Apart,
-    /// They have, and neither of the others.
+    /// Points in common, but neither overlapping nor crossing.
     Touching,
-    /// They lie in one plane and have an area in common.
+    /// In one plane, with an area in common.
     Overlapping,
-    /// They have after every small enough move of their corners.
+    /// Points in common after every small enough move of their corners.
     Crossing,
 }
 
-/// How two triangles have points in common: whether the origin is inside the set of differences of their points, inside it in a plane, or
-/// on its boundary.
+/// Kind of contact of two closed triangles, exactly.
+///
+/// The origin is outside the set of differences of their points, inside it, inside it in a plane,
+/// or on its boundary.
 ///
 /// # Panics
 ///
@@ -96,14 +103,14 @@ fn kind_of<I: Exact>(corners: &[Vector<I>]) -> ContactKind {
     }
 }
 
-/// Of the convex hull of the first three and that of the others.
+/// Whether the hulls of the first three corners and of the other three have a point in common.
 fn zero_is_a_difference<I: Exact>(corners: &[Vector<I>]) -> bool {
     zero_in_hull::<9, I>(&std::array::from_fn(|i| {
         minus(&corners[i / 3], &corners[3 + i % 3])
     }))
 }
 
-/// The sign of the determinant of b - a, c - a, d - a.
+/// Orientation of four points: the sign of the determinant of b - a, c - a, d - a.
 ///
 /// # Panics
 ///
@@ -115,13 +122,13 @@ pub fn orientation(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3], d: &[f64; 3]) -> i8
     }
 }
 
-/// On which side of the first three the fourth lies.
+/// Side of the plane of the first three points on which the fourth lies.
 fn side<I: Exact>(points: &[Vector<I>]) -> i8 {
     let [b, c, d] = [1, 2, 3].map(|i| minus(&points[i], &points[0]));
     determinant(&b, &c, &d).sign()
 }
 
-/// The sign of the determinant of b - a, c - a in the plane.
+/// Orientation of three points in the plane: the sign of the determinant of b - a, c - a.
 ///
 /// # Panics
 ///
@@ -132,7 +139,7 @@ pub fn orientation_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> i8 {
     orientation(&p, &q, &r, &[a[0], a[1], 1.0])
 }
 
-/// The sign of an exact sum.
+/// Sign of the exact sum of numbers.
 ///
 /// # Panics
 ///
@@ -145,7 +152,7 @@ pub fn sign_of_sum(numbers: &[f64]) -> i8 {
     }
 }
 
-/// The sign of the sum of first coordinates.
+/// Sign of the sum of first coordinates.
 fn sum_of_first<I: Exact>(points: &[Vector<I>]) -> i8 {
     let sum = points
         .iter()
@@ -180,7 +187,7 @@ mod tests {
                 [[1.0, 1.0, 0.0], [1.0, 1.0, 1.0], [1.0, 1.0, 0.5]],
                 ContactKind::Touching,
             ),
-            // Two ends of the line in common on either side: through the very edges.
+            // The common segment ends on two edges of `a`: it passes through the very edges.
             (
                 [[2.0, 0.0, -1.0], [2.0, 0.0, 1.0], [-2.0, 4.0, 0.0]],
                 ContactKind::Crossing,
@@ -228,7 +235,8 @@ mod tests {
 
     #[test]
     fn the_largest_small_integers_do_not_overflow() {
-        // The largest differences and determinants that SMALL allows; overflow would panic here.
+        // The largest differences and determinants that `SMALL` allows; an overflow would panic
+        // here.
         let m = 2f64.powi(40) - 1.0;
         let a = [[m, m, -m], [-m, m, m], [m, -m, m]];
         let b = a.map(|p| p.map(|x: f64| -x));

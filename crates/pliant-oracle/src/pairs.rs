@@ -1,21 +1,21 @@
-//! Pairs of triangles on which a decision is likely to go wrong.
+//! Hard pairs of triangles: pairs on which a decision is likely to go wrong.
 //!
-//! Every coordinate is finite and at most `f32::MAX` in magnitude, the range that the library accepts. The pairs depend on the
-//! seed alone: no clock, no platform mathematics.
+//! Every coordinate is finite and at most `f32::MAX` in magnitude, the range that the library
+//! accepts. The pairs depend on the seed alone: no clock, no platform mathematics.
 
 use crate::Triangle;
 
-/// A small source of numbers: SplitMix64 (Steele, Lea and Flood 2014).
+/// Pseudo-random number generator SplitMix64 (Steele, Lea and Flood 2014).
 #[derive(Clone, Debug)]
 pub struct Random(u64);
 
 impl Random {
-    /// Other seeds, other numbers.
+    /// Starts a sequence of numbers. Each seed has its own.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// 64 random bits.
+    /// The next 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -24,7 +24,7 @@ impl Random {
         z ^ z >> 31
     }
 
-    /// In 0..count.
+    /// A random number in 0..count.
     pub fn below(&mut self, count: u32) -> u32 {
         (((self.bits() >> 32) * u64::from(count)) >> 32) as u32
     }
@@ -37,7 +37,7 @@ impl Random {
         self.below(count) == 0
     }
 
-    /// In [-1, 1): 53 bits, or 24.
+    /// A random number in [-1, 1) with 53 bits, or 24.
     pub(crate) fn real(&mut self, single: bool) -> f64 {
         let bits = if single { 24 } else { 53 };
         (self.bits() >> (64 - bits)) as f64 * power(1 - bits) - 1.0
@@ -52,7 +52,7 @@ impl Random {
         std::array::from_fn(|_| std::array::from_fn(|_| self.real(single)))
     }
 
-    /// A few units in the last place up or down, often none.
+    /// Moves a number by a few units in the last place, often by none.
     pub(crate) fn nudged(&mut self, x: f64, single: bool) -> f64 {
         (0..self.below(3)).fold(x, |x, _| match (single, self.one_in(2)) {
             (true, true) => f64::from((x as f32).next_up()),
@@ -78,22 +78,23 @@ pub fn fits_f32(pair: &[Triangle; 2]) -> bool {
     coordinates.iter().all(|&x| f64::from(x as f32) == x)
 }
 
-/// A kind of pairs.
+/// A class of hard pairs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Class {
     /// Corners anywhere in a cube.
     Random,
-    /// Corners on a small lattice: touching, coplanar, equal and degenerate ones in plenty.
+    /// Corners on a small lattice: many touching, coplanar, equal and degenerate triangles.
     Lattice,
-    /// Both triangles in one plane up to rounding, and a few units in the last place.
+    /// Both triangles in one plane, up to rounding and a few units in the last place.
     NearlyCoplanar,
-    /// Both triangles exactly in one plane, which is not that of two axes.
+    /// Both triangles exactly in one plane, which is not the plane of two axes.
     Coplanar,
-    /// A corner of one computed as a point of the other, and rounded: it touches, or misses by a hair.
+    /// A corner computed as a point of the other triangle, and rounded: it touches, or misses by a
+    /// hair.
     NearlyTouching,
-    /// Two segments, skew, crossing, or in one line.
+    /// Two segments: skew, crossing, or in one line.
     Segments,
-    /// A point and a triangle, a segment, a point.
+    /// A point with a triangle, a segment, or a point.
     Points,
     /// One side a million or more times shorter than the others, or three corners almost in a line.
     Slivers,
@@ -101,22 +102,23 @@ pub enum Class {
     SharedVertex,
     /// An edge in common, or nearly; sometimes in one plane.
     SharedEdge,
-    /// The same triangle, corners in another order, perhaps nudged.
+    /// A triangle and itself with corners in another order, perhaps nudged.
     Identical,
     /// Each corner, triangle or axis at a scale of its own, from 1e-38 to 1e38.
     Scales,
     /// Multiples of the smallest `f32`, some with coordinates of ordinary size.
     Subnormal,
-    /// `f64` about 2^-306, where the product of three differences begins to lose digits.
+    /// `f64` coordinates about 2^-306, where the product of three differences begins to lose
+    /// digits.
     NearUnderflow,
-    /// `f64` down to the smallest, some with coordinates up to the largest accepted.
+    /// `f64` coordinates down to the smallest, some with coordinates up to the largest accepted.
     BelowUnderflow,
     /// Any bits that are a number in range.
     AnyBits,
 }
 
 impl Class {
-    /// Every kind.
+    /// All classes.
     pub const ALL: [Self; 16] = [
         Self::Random,
         Self::Lattice,
@@ -136,9 +138,9 @@ impl Class {
         Self::AnyBits,
     ];
 
-    /// The next pair of this kind.
+    /// Generates the next pair of this class.
     pub fn pair(self, random: &mut Random) -> [Triangle; 2] {
-        // Half of the pairs have `f32` coordinates where the kind does not say which.
+        // Half of the pairs have `f32` coordinates, unless the class says which.
         let single = random.one_in(2);
         let pair = match self {
             Self::Random => {
@@ -175,7 +177,7 @@ impl Class {
     }
 }
 
-/// Corners and triangles in any order.
+/// Reorders corners and triangles at random.
 fn shuffled(mut pair: [Triangle; 2], random: &mut Random) -> [Triangle; 2] {
     for triangle in &mut pair {
         triangle.rotate_left(random.below(3) as usize);
@@ -189,7 +191,7 @@ fn shuffled(mut pair: [Triangle; 2], random: &mut Random) -> [Triangle; 2] {
     pair
 }
 
-/// To `f32` if wanted, and into the range that is accepted.
+/// Clamps into the range that is accepted, and rounds to `f32` if wanted.
 fn rounded(pair: [Triangle; 2], single: bool) -> [Triangle; 2] {
     let max = f64::from(f32::MAX);
     pair.map(|triangle| {
@@ -207,7 +209,7 @@ fn lattice(random: &mut Random) -> [Triangle; 2] {
     [random.lattice(range), random.lattice(range)]
 }
 
-/// In general position, or on a lattice.
+/// A pair in general position, or on a lattice.
 fn either(random: &mut Random, single: bool) -> [Triangle; 2] {
     if random.one_in(2) {
         lattice(random)
@@ -222,7 +224,7 @@ fn nearly_coplanar(random: &mut Random, single: bool) -> [Triangle; 2] {
     for p in a.iter_mut().chain(&mut b) {
         p[2] = p[0] * slope[0] + p[1] * slope[1] + slope[2];
     }
-    // Any of the three axes may be the one that is computed.
+    // Any of the three axes may be the computed one.
     let turn = random.below(3) as usize;
     [a, b]
         .iter_mut()
@@ -237,7 +239,7 @@ fn nearly_coplanar(random: &mut Random, single: bool) -> [Triangle; 2] {
 }
 
 fn coplanar(random: &mut Random) -> [Triangle; 2] {
-    // Two directions and a place, small integers: everything computed from them is exact.
+    // Two directions and a place in small integers: everything computed from them is exact.
     let [[u, v, place], _] = [random.lattice(3), random.lattice(1)];
     let range = [2, 4, 9, 1000][random.below(4) as usize];
     let mut corner = || -> [f64; 3] {
@@ -247,7 +249,7 @@ fn coplanar(random: &mut Random) -> [Triangle; 2] {
     [(); 2].map(|()| [corner(), corner(), corner()])
 }
 
-/// s p + (1 - s) q, rounded.
+/// The point s p + (1 - s) q, rounded.
 fn mixed(p: [f64; 3], q: [f64; 3], s: f64) -> [f64; 3] {
     [0, 1, 2].map(|axis| s * p[axis] + (1.0 - s) * q[axis])
 }
@@ -376,7 +378,7 @@ fn scales(random: &mut Random, single: bool) -> [Triangle; 2] {
                 *p = [0, 1, 2].map(|axis| p[axis] * power(exponents[axis]));
             }
         }
-        // The largest there are.
+        // The largest numbers.
         _ => {
             for p in pair.as_flattened_mut() {
                 *p = p.map(|x| x.signum() * f64::from(f32::MAX) * f64::from(x.abs() > 0.5));
@@ -404,7 +406,8 @@ fn subnormal(random: &mut Random) -> [Triangle; 2] {
 
 fn near_underflow(random: &mut Random) -> [Triangle; 2] {
     let pair = either(random, false);
-    // Where the product of three differences, of two, and single values leave the normal range.
+    // Exponents at which products of three differences, of two, and single values leave the normal
+    // range.
     let around = [-306, -290, -340, -358, -485, -535][random.below(6) as usize];
     let scale = power(around + random.between(-3, 3));
     let ordinary = random.below(6) as usize;
@@ -435,7 +438,8 @@ fn below_underflow(random: &mut Random) -> [Triangle; 2] {
             }
         }
         2 => {
-            // Large coordinates that agree but for the last digit, and small ones that say which side.
+            // Large coordinates that differ in the last digit only, and small ones that tell the
+            // side.
             let large = random.real(false) * power(random.between(0, 126));
             for p in pair.as_flattened_mut() {
                 p[0] = random.nudged(large, false);
@@ -446,8 +450,10 @@ fn below_underflow(random: &mut Random) -> [Triangle; 2] {
     rounded(pair, false)
 }
 
-/// Eight pairs of elements of two triangles, by their corners, and how many of these are of the first element: a corner and the other
-/// triangle, or two edges.
+/// Eight pairs of elements of two triangles, by their corners.
+///
+/// Each is a corner and the other triangle, or two edges. The number is the count of corners of the
+/// first element.
 pub fn element_pairs([a, b]: &[Triangle; 2]) -> Vec<(usize, [[f64; 3]; 4])> {
     let corners = (0..2).flat_map(|corner| [[a, b], [b, a]].map(|pair| (corner, pair)));
     let corners = corners.map(|(corner, [a, b])| (1, [a[corner], b[0], b[1], b[2]]));

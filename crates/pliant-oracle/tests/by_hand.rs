@@ -1,13 +1,13 @@
-//! The oracle on triangles whose answer can be seen.
+//! The oracle on triangles whose answer is obvious.
 
 use pliant_oracle::{
     Class, Random, Triangle, fits_f32, intersect, orientation, orientation_2d, sign_of_sum,
 };
 
-/// In the plane z = 0.
+/// A triangle in the plane z = 0.
 const A: Triangle = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
 
-/// For every order of corners and triangles, and at every scale.
+/// Asserts the answer for every order of corners and triangles, at every scale.
 fn assert_meet(a: &Triangle, b: &Triangle, expected: bool) {
     for order in [
         [0, 1, 2],
@@ -55,7 +55,8 @@ fn touching_is_meeting() {
 #[test]
 fn a_gap_is_none() {
     for b in [
-        // Above; beside; the line of the edge passes outside; in the plane but beyond the slanted edge.
+        // Above; beside; the line of the edge passes outside; in the plane but beyond the slanted
+        // edge.
         [[1.0, 1.0, 1.0], [1.0, 2.0, 1.0], [2.0, 1.0, 1.0]],
         [[5.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 9.0, 0.0]],
         [[3.0, 3.0, -1.0], [3.0, 3.0, 1.0], [4.0, 4.0, 0.0]],

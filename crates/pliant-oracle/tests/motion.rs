@@ -1,4 +1,4 @@
-//! The oracle of motion, on motions whose answer can be seen, and on changes that change no answer.
+//! The oracle of motion on motions whose answer is obvious, and on changes that keep the answer.
 
 use pliant_oracle::{
     Elements, MotionClass, Moving, Random, compare_first, first_contact, intersect, meet_until,
@@ -11,13 +11,13 @@ const EE: Elements = Elements::EdgeEdge;
 
 const FACE: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
 
-/// A vertex that moves, and a triangle that does not.
+/// A moving vertex and a triangle at rest.
 fn onto_face(from: [f64; 3], to: [f64; 3]) -> Moving {
     let [a, b, c] = FACE;
     [[from, a, b, c], [to, a, b, c]]
 }
 
-/// An edge that moves, and the edge from the origin to (4, 0, 0).
+/// A moving edge, and the edge from the origin to (4, 0, 0) at rest.
 fn onto_edge(from: [[f64; 3]; 2], to: [[f64; 3]; 2]) -> Moving {
     let [a, b, _] = FACE;
     [[from[0], from[1], a, b], [to[0], to[1], a, b]]
@@ -27,12 +27,12 @@ fn every(motion: &Moving, mut of: impl FnMut(f64) -> f64) -> Moving {
     motion.map(|corners| corners.map(|p| p.map(&mut of)))
 }
 
-/// The same corners in another order.
+/// Motion with its corners in another order.
 fn in_order(motion: &Moving, order: [usize; 4]) -> Moving {
     motion.map(|corners| order.map(|i| corners[i]))
 }
 
-/// Orders in which the elements stay what they are.
+/// Orders of corners that keep the elements.
 fn orders(elements: Elements) -> Vec<[usize; 4]> {
     match elements {
         VT => vec![
@@ -46,7 +46,7 @@ fn orders(elements: Elements) -> Vec<[usize; 4]> {
     }
 }
 
-/// The first contact is at a time, or never: in any order of corners, and at any size.
+/// Asserts the time of the first contact, or its absence, for any order of corners and any size.
 fn assert_first(elements: Elements, motion: &Moving, at: Option<f64>) {
     let mut same = vec![*motion];
     same.extend(
@@ -56,7 +56,7 @@ fn assert_first(elements: Elements, motion: &Moving, at: Option<f64>) {
     );
     for k in [-900, -60, 60] {
         let scaled = every(motion, |x| x * 2f64.powi(k));
-        // The smallest numbers are lost in some.
+        // Some sizes lose the smallest numbers.
         if every(&scaled, |x| x * 2f64.powi(-k)) == *motion {
             same.push(scaled);
         }
@@ -120,7 +120,7 @@ fn a_vertex_onto_a_triangle_at_rest() {
 #[test]
 fn an_edge_onto_an_edge_at_rest() {
     for (from, to, at) in [
-        // Across, at an end of the one, of both, and past the ends.
+        // Across, at an end of one, at an end of both, and past the ends.
         (
             [[1.0, -1.0, 1.0], [1.0, 1.0, 1.0]],
             [[1.0, -1.0, -1.0], [1.0, 1.0, -1.0]],
@@ -167,7 +167,8 @@ fn an_edge_onto_an_edge_at_rest() {
             [[23.0, 0.0, 0.0], [24.0, 0.0, 0.0]],
             Some(0.25),
         ),
-        // Turning about its middle, which is in the line beyond the end; the end passes by the line far away.
+        // Turns about its middle, which is in the line beyond the end. Its ends pass the line far
+        // away.
         (
             [[5.0, -1.0, 0.0], [5.0, 1.0, 0.0]],
             [[5.0, 1.0, 0.0], [5.0, -1.0, 0.0]],
@@ -197,7 +198,8 @@ fn an_edge_onto_an_edge_at_rest() {
 
 #[test]
 fn triangles_that_are_less_for_a_moment() {
-    // Half way all three are in the line of the x axis, from 0 to 4: the vertex is above that before and after.
+    // Half way all three corners are on the x axis, from 0 to 4. The vertex is above the axis
+    // before and below it after.
     let folded = |height: f64, x: f64| -> Moving {
         let c = [2.0, height, 0.0];
         let p = [x, 0.0, height];
@@ -209,7 +211,7 @@ fn triangles_that_are_less_for_a_moment() {
     assert_first(VT, &folded(1.0, 1.0), Some(0.5));
     assert_first(VT, &folded(1.0, 4.0), Some(0.5));
     assert_first(VT, &folded(1.0, 5.0), None);
-    // To a point, and the vertex is there at that time, or is not.
+    // The triangle shrinks to a point, where the vertex is at that time, or is not.
     let shrinking = |x: f64| -> Moving {
         let corners = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, -1.0, 0.0]];
         let [a, b, c] = corners;
@@ -233,15 +235,15 @@ fn triangles_that_are_less_for_a_moment() {
     );
 }
 
-/// Three corners that move, a vertex at the origin.
+/// Three moving corners, and a vertex at the origin.
 fn round_the_origin(start: [[f64; 3]; 3], end: [[f64; 3]; 3]) -> Moving {
     [start, end].map(|[a, b, c]| [[0.0; 3], a, b, c])
 }
 
 #[test]
 fn a_double_root() {
-    // With s = 2t - 1, the corners (s, 1, 0), (e - s, s - 1, 0) and (0, 0, 1) have the determinant s^2 - e, and the edge of the first two
-    // passes the origin between them.
+    // With s = 2t - 1, the corners (s, 1, 0), (e - s, s - 1, 0) and (0, 0, 1) have the determinant
+    // s^2 - e. The edge of the first two passes the origin between them.
     let motion = |e: f64| {
         round_the_origin(
             [[-1.0, 1.0, 0.0], [1.0 + e, -2.0, 0.0], [0.0, 0.0, 1.0]],
@@ -258,8 +260,9 @@ fn a_double_root() {
 
 #[test]
 fn the_last_of_three_roots() {
-    // A triangular matrix with 4t - 1, 2t - 1 and 4t - 3 in its diagonal. At the first two times the corners are in one plane with the origin, which
-    // is outside of them; at the third a corner is there.
+    // A triangular matrix with the diagonal 4t - 1, 2t - 1 and 4t - 3. At the first two times the
+    // corners are in one plane with the origin, but do not contain it. At the third a corner is
+    // there.
     let motion = round_the_origin(
         [[-1.0, 1.0, 1.0], [0.0, -1.0, -1.0], [0.0, 0.0, -3.0]],
         [[3.0, 1.0, 1.0], [0.0, 1.0, -1.0], [0.0, 0.0, 1.0]],
@@ -309,7 +312,7 @@ fn times_that_are_no_fractions_of_powers_of_two() {
         compare_first((VT, &root), (VT, &larger)),
         Some(Ordering::Equal)
     );
-    // A third of the step in other elements.
+    // A third of the step with other elements.
     let third_by_vertex = onto_face([1.0, 1.0, 1.0], [1.0, 1.0, -2.0]);
     assert_eq!(
         compare_first((VT, &third_by_vertex), (EE, &third)),
@@ -395,7 +398,7 @@ fn the_smallest_and_the_largest_numbers() {
     assert_eq!(first.unwrap().compare(tiny), Ordering::Less);
 }
 
-/// Runs with motions of all classes.
+/// Runs `run` with motions of all classes.
 fn for_all(seed: u64, count: u32, mut run: impl FnMut(MotionClass, Elements, &Moving)) {
     for class in MotionClass::ALL {
         let mut random = Random::new(seed);
@@ -406,7 +409,7 @@ fn for_all(seed: u64, count: u32, mut run: impl FnMut(MotionClass, Elements, &Mo
     }
 }
 
-/// That two motions have the same answer, at the same time.
+/// Asserts that two motions first meet at the same time, or never.
 fn assert_same(a: (Elements, &Moving), b: (Elements, &Moving)) {
     let answer = compare_first(a, b);
     let never = || !meet_until(a.0, a.1, 1.0) && !meet_until(b.0, b.1, 1.0);
@@ -460,7 +463,7 @@ fn sizes_places_and_shears() {
             }
             all_exact.then_some(changed)
         };
-        // Each end elsewhere: both move alike, besides.
+        // A translation for each end, the same for both elements.
         let by = [[1.0, -8.0, 3.0], [-64.0, 5.0, 0.5]];
         let moved_by = exact(&mut |end, p| {
             let [x, y, z] = [0, 1, 2].map(|axis| exact_sum(p[axis], by[end][axis]));
@@ -481,7 +484,7 @@ fn sizes_places_and_shears() {
     assert!(moved.iter().all(|&count| count > 500), "{moved:?}");
 }
 
-/// Where the corners are half way, if that is exact.
+/// Corners half way, if they are exact.
 fn half_way(motion: &Moving) -> Option<[[f64; 3]; 4]> {
     let mut middle = motion[0];
     for (p, q) in middle.iter_mut().zip(motion[1]) {
@@ -530,7 +533,7 @@ fn a_triangle_is_its_parts() {
     let mut parted = [0; 2];
     for_all(13, 200, |_, elements, motion| {
         let [Some(start), Some(end)] = [0, 1].map(|end| {
-            // From corner to corner of the last two.
+            // From the third corner to the fourth.
             let pair: Moving = [[motion[end][2]; 4], [motion[end][3]; 4]];
             half_way(&pair).map(|it| it[0])
         }) else {
@@ -574,7 +577,7 @@ fn a_vertex_and_a_segment_either_way() {
     assert!(count.iter().all(|&count| count > 200), "{count:?}");
 }
 
-/// The elements at rest, as triangles.
+/// Whether the elements meet at rest, as triangles.
 fn at_rest(elements: Elements, [a, b, c, d]: [[f64; 3]; 4]) -> bool {
     match elements {
         VT => intersect(&[a; 3], &[b, c, d]),
@@ -611,7 +614,7 @@ fn at_exact_times_it_agrees_with_intersect() {
                 }
             }
         }
-        // Nothing moves: as at the start.
+        // Without motion the answer is as at the start.
         let still = [motion[0]; 2];
         assert_eq!(meet_until(elements, &still, 1.0), start);
     });
@@ -691,7 +694,7 @@ fn every_class_is_in_range_and_hard() {
     }
 }
 
-/// How long 100,000 of each class take, and the slowest.
+/// Prints the time for 100,000 motions of each class, and the slowest motion.
 #[test]
 #[ignore = "minutes; to be run with --release and --nocapture"]
 fn a_hundred_thousand_of_each() {

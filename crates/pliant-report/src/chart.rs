@@ -1,4 +1,4 @@
-//! Lines over steps, as in figures 3 and 4 of the paper: shown by the page, and written as SVG for a paper.
+//! Line charts over steps, as in figures 3 and 4 of the paper: on the page, and as SVG for a paper.
 
 use crate::MARK;
 use crate::colours::of_line;
@@ -6,51 +6,52 @@ use crate::escape::escape;
 use serde::Serialize;
 use std::fmt::Write;
 
-/// A step is far above all others if it is so many times as high as nine of ten are.
+/// A step is an outlier if it is more than this many times as high as nine of ten are.
 const FAR: f64 = 3.0;
-/// Of fewer steps none is usual.
+/// Fewest steps among which outliers are looked for.
 const FEWEST: usize = 3;
-/// The unit of times. Of other figures those far above all others are what was found, not what a machine was busy with.
+/// Unit of times. Outliers among other figures are results, not noise of a busy machine.
 const TIME: &str = "ms";
 
-/// Some figures at each step.
+/// A chart: one figure a step for each of its lines.
 #[derive(Clone, Debug, Serialize)]
 pub struct Chart {
-    /// What is shown.
+    /// Title of the chart.
     pub title: String,
-    /// What the figures are: `ms`.
+    /// Unit of the figures, such as `ms`.
     pub unit: String,
-    /// What the steps are called: `step` or `frame`.
+    /// Name of the steps: `step` or `frame`.
     pub along: String,
-    /// The numbers of the steps.
+    /// Numbers of the steps.
     pub x: Vec<u32>,
-    /// The lines.
+    /// Lines of the chart.
     pub series: Vec<Series>,
 }
 
-/// One line.
+/// One line of a chart.
 #[derive(Clone, Debug, Serialize)]
 pub struct Series {
-    /// What it is called.
+    /// Name of the line.
     pub name: String,
-    /// One figure a step.
+    /// Values, one a step; one that is not finite is not drawn.
     pub values: Vec<f64>,
 }
 
-/// The picture, and the part of it that lines are drawn in.
+/// Size of the SVG, and margins around the plot, in user units.
 const WIDTH: f64 = 720.0;
 const HEIGHT: f64 = 400.0;
 const LEFT: f64 = 64.0;
 const TOP: f64 = 40.0;
 const RIGHT: f64 = 20.0;
 const BOTTOM: f64 = 48.0;
-/// From there down, the legend; the height of a line of it.
+const FONT: &str = r#"font-family="Helvetica, Arial, sans-serif" font-size="12" fill="black""#;
+/// Top of the legend, and height of one of its lines.
 const LEGEND: f64 = HEIGHT + 10.0;
 const LEGEND_LINE: f64 = 18.0;
 
 impl Chart {
-    /// Whether the lines are so far apart that only a logarithmic axis shows all of them: the largest median is over fifty
-    /// times the smallest.
+    /// Whether the chart has a logarithmic axis: the largest median of a line is over fifty times
+    /// the smallest.
     pub fn is_logarithmic(&self) -> bool {
         let medians: Vec<f64> = self
             .series
@@ -71,8 +72,9 @@ impl Chart {
         medians.iter().any(|&median| median > 50.0 * least)
     }
 
-    /// Where a chart of times ends if it leaves out the steps that are far above all others, so that these are seen: the highest of
-    /// the others. `None` where no step is, or leaving it out would gain little.
+    /// Upper end of a chart of times that leaves out outliers: the highest of the other steps.
+    ///
+    /// `None` if no step is an outlier, or if leaving them out would gain little.
     pub fn ceiling(&self) -> Option<f64> {
         if self.unit != TIME {
             return None;
@@ -88,7 +90,7 @@ impl Chart {
         (heights.len() >= FEWEST && most > 1.5 * ceiling).then_some(ceiling)
     }
 
-    /// The highest line at a step, and how high it is.
+    /// Highest line at a step, and its value.
     fn highest(&self, step: usize) -> Option<(&Series, f64)> {
         let values = self
             .series
@@ -98,19 +100,20 @@ impl Chart {
         values.max_by(|(_, one), (_, other)| one.total_cmp(other))
     }
 
-    /// A picture for a paper: black on nothing, with a legend below.
+    /// Renders the chart as SVG for a paper, with a legend below.
     pub fn svg(&self) -> String {
         let rows = self.series.len().div_ceil(2) as f64;
         let height = LEGEND + rows * LEGEND_LINE;
         let axes = Axes::of(self);
-        // Only what is clipped says so.
+        // Only a clipped line refers to the clip path.
         let clip = if axes.is_cut {
             r#" clip-path="url(#plot)""#
         } else {
             ""
         };
+        let size = format!(r#"width="{WIDTH}" height="{height}" viewBox="0 0 {WIDTH} {height}""#);
         let mut svg = format!(
-            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{height}" viewBox="0 0 {WIDTH} {height}" font-family="Helvetica, Arial, sans-serif" font-size="12" fill="black">
+            r#"<svg xmlns="http://www.w3.org/2000/svg" {size} {FONT}>
 <!-- {MARK} -->
 <title>{title}</title>
 <text x="{LEFT}" y="20" font-size="14">{title}</text>
@@ -120,9 +123,10 @@ impl Chart {
         axes.draw(&mut svg, self);
         if axes.is_cut {
             let [width, height] = [WIDTH - LEFT - RIGHT, HEIGHT - BOTTOM - TOP];
+            let size = format!(r#"width="{width}" height="{height}""#);
             let _ = writeln!(
                 svg,
-                r#"<clipPath id="plot"><rect x="{LEFT}" y="{TOP}" width="{width}" height="{height}"/></clipPath>"#
+                r#"<clipPath id="plot"><rect x="{LEFT}" y="{TOP}" {size}/></clipPath>"#
             );
             axes.mark_outliers(&mut svg, self);
         }
@@ -137,18 +141,24 @@ impl Chart {
             let points: Vec<String> = points
                 .map(|(&x, &y)| format!("{:.2},{:.2}", axes.x(f64::from(x)), axes.y(y)))
                 .collect();
+            let points = points.join(" ");
+            let stroke = format!(r#"stroke="{colour}" stroke-width="1.5" stroke-linejoin="round""#);
             let _ = writeln!(
                 svg,
-                r#"<polyline fill="none" stroke="{colour}" stroke-width="1.5" stroke-linejoin="round"{dashes}{clip} points="{}"/>"#,
-                points.join(" ")
+                r#"<polyline fill="none" {stroke}{dashes}{clip} points="{points}"/>"#
             );
             let x = LEFT + (number % 2) as f64 * (WIDTH - LEFT - RIGHT) / 2.0;
             let y = LEGEND + (number / 2) as f64 * LEGEND_LINE;
-            let _ = writeln!(
+            let stroke = format!(r#"stroke="{colour}" stroke-width="2"{dashes}"#);
+            let _ = write!(
                 svg,
-                r#"<line x1="{x}" y1="{0}" x2="{1}" y2="{0}" stroke="{colour}" stroke-width="2"{dashes}/><text x="{2}" y="{y}">{3}</text>"#,
+                r#"<line x1="{x}" y1="{0}" x2="{1}" y2="{0}" {stroke}/>"#,
                 y - 4.0,
                 x + 24.0,
+            );
+            let _ = writeln!(
+                svg,
+                r#"<text x="{0}" y="{y}">{1}</text>"#,
                 x + 32.0,
                 escape(&series.name),
             );
@@ -158,14 +168,14 @@ impl Chart {
     }
 }
 
-/// Where values are in the picture.
+/// Axes: the map from values to the picture.
 struct Axes {
     x: [f64; 2],
     y: [f64; 2],
     logarithmic: bool,
-    /// Between two lines across.
+    /// Distance of two horizontal grid lines.
     tick: f64,
-    /// Whether some steps are above the picture.
+    /// Whether some steps end above the picture.
     is_cut: bool,
 }
 
@@ -184,7 +194,7 @@ impl Axes {
         });
         let most_shown = ceiling.unwrap_or(if most > 0.0 { most } else { 1.0 });
         let mut all = chart.series.iter().flat_map(|series| &series.values);
-        // What is counted has no halves.
+        // Counts have no halves.
         let least_tick = if all.all(|y| y.fract() == 0.0) {
             1.0
         } else {
@@ -231,9 +241,13 @@ impl Axes {
         let (right, bottom) = (WIDTH - RIGHT, HEIGHT - BOTTOM);
         for y in self.ticks_up() {
             let at = self.y(y);
+            let _ = write!(
+                svg,
+                r##"<line x1="{LEFT}" y1="{at:.2}" x2="{right}" y2="{at:.2}" stroke="#ddd"/>"##,
+            );
             let _ = writeln!(
                 svg,
-                r##"<line x1="{LEFT}" y1="{at:.2}" x2="{right}" y2="{at:.2}" stroke="#ddd"/><text x="{0}" y="{1:.2}" text-anchor="end">{2}</text>"##,
+                r#"<text x="{0}" y="{1:.2}" text-anchor="end">{2}</text>"#,
                 LEFT - 8.0,
                 at + 4.0,
                 short(y),
@@ -243,10 +257,14 @@ impl Axes {
         let mut x = (self.x[0] / step).ceil() * step;
         while x <= self.x[1] {
             let at = self.x(x);
+            let _ = write!(
+                svg,
+                r#"<line x1="{at:.2}" y1="{bottom}" x2="{at:.2}" y2="{0}" stroke="black"/>"#,
+                bottom + 5.0,
+            );
             let _ = writeln!(
                 svg,
-                r#"<line x1="{at:.2}" y1="{bottom}" x2="{at:.2}" y2="{0}" stroke="black"/><text x="{at:.2}" y="{1}" text-anchor="middle">{x}</text>"#,
-                bottom + 5.0,
+                r#"<text x="{at:.2}" y="{0}" text-anchor="middle">{x}</text>"#,
                 bottom + 19.0,
             );
             x += step;
@@ -263,7 +281,8 @@ impl Axes {
         );
     }
 
-    /// A triangle at the top for each step that is above the picture, with the highest line there; the highest of all is named.
+    /// Draws a triangle at the top for each outlier, with its highest line, and labels the highest
+    /// of all.
     fn mark_outliers(&self, svg: &mut String, chart: &Chart) {
         let steps = chart.x.iter().enumerate();
         let above = steps.filter_map(|(step, &x)| Some((x, chart.highest(step)?)));
@@ -309,7 +328,7 @@ impl Axes {
     }
 }
 
-/// 1, 2 or 5 times a power of ten; between four and ten of them are in `range`.
+/// Distance of ticks: 1, 2 or 5 times a power of ten, between four and ten of them in `range`.
 fn tick_size(range: f64) -> f64 {
     let rough = range / 4.0;
     let power = 10_f64.powf(rough.log10().floor());
@@ -320,7 +339,7 @@ fn tick_size(range: f64) -> f64 {
         .unwrap_or(power)
 }
 
-/// A number without the dust that sums of fractions leave.
+/// Shortest decimal form, without the rounding errors of sums of fractions.
 fn short(y: f64) -> String {
     let text = format!("{y:.6}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -405,7 +424,8 @@ mod tests {
         assert_eq!(svg.matches("</svg>").count(), 1);
     }
 
-    /// Twenty steps, the first of two lines with these figures at its beginning, else 1; the second at 0.5.
+    /// A chart of twenty steps and two lines. The first line begins with `values` and goes on at 1,
+    /// the second is 0.5.
     fn beginning(values: &[f64]) -> Chart {
         let mut first = vec![1.0; 20];
         first[..values.len()].copy_from_slice(values);
@@ -419,7 +439,7 @@ mod tests {
         let chart = beginning(&[2.0, 40.25]);
         assert_eq!(chart.ceiling(), Some(2.0));
         let svg = chart.svg();
-        // The axis ends at 2; the line goes on beyond, and is clipped.
+        // The axis ends at 2. The line goes on beyond, and is clipped.
         let points = r#"clip-path="url(#plot)" points="64.00,40.00 97.47,-5927.00 130.95,196.00 "#;
         assert!(svg.contains(points), "{svg}");
         assert!(svg.contains(
@@ -431,7 +451,7 @@ mod tests {
 
     #[test]
     fn one_slow_step_flattens_no_chart_of_times() {
-        // Of three steps or more, wherever it is; beside two that are slow, too.
+        // An outlier among three steps or more, anywhere; then beside two other slow steps.
         let ceiling = |steps: &[f64]| {
             let mut times = chart(&[("a", steps)]);
             times.x = (0..).take(steps.len()).collect();
@@ -444,7 +464,7 @@ mod tests {
                 assert_eq!(ceiling(&steps), Some(1.0), "{slow} of {count}");
             }
         }
-        // As `run tear --stride 10` was.
+        // Times of `run tear --stride 10`.
         let mut torn = [1.1; 25];
         (torn[0], torn[3], torn[15], torn[24]) = (11.9, 5.2, 5.3, 2.9);
         assert_eq!(ceiling(&torn), Some(5.3));
@@ -469,13 +489,13 @@ mod tests {
 
     #[test]
     fn what_is_usual_is_not_cut_off() {
-        // Nothing far above; three of twenty, which are not few.
+        // No outlier; then three of twenty, which are not few.
         for usual in [&[1.0, 2.9][..], &[2.5, 2.5, 7.4], &[9.0, 9.0, 9.0]] {
             let chart = beginning(usual);
             assert_eq!(chart.ceiling(), None, "{usual:?}");
             assert!(!chart.svg().contains("clip"));
         }
-        // One that is hardly above the next.
+        // One step that is hardly above the next.
         let mut steps = [1.0; 60];
         steps[..2].copy_from_slice(&[2.9, 3.2]);
         let mut near = chart(&[("a", &steps)]);
@@ -483,7 +503,7 @@ mod tests {
         assert_eq!(near.ceiling(), None);
         near.series[0].values[1] = 4.4;
         assert_eq!(near.ceiling(), Some(2.9));
-        // A line that is above others at every step; steps at which nothing is; few steps.
+        // A line above the others at every step; steps without a value; few steps.
         let mut slow = beginning(&[]);
         slow.series[1].values = vec![30.0; 20];
         let mut rare = beginning(&[]);
@@ -491,12 +511,12 @@ mod tests {
         rare.series[0].values = vec![0.0; 20];
         rare.series[0].values[3..5].copy_from_slice(&[1.0, 9.0]);
         let few = chart(&[("a", &[1.0, 9.0])]);
-        // What grows was found, and is seen.
+        // Growth in counts is a result, and is shown.
         let mut found = beginning(&[9.0]);
         found.unit = "pairs".to_owned();
         let charts = [slow, rare, few, found];
         assert_eq!(charts.map(|chart| chart.ceiling()), [None; 4]);
-        // On a logarithmic axis all is seen.
+        // A logarithmic axis shows all.
         let mut far = beginning(&[400.0]);
         far.series[1].values = vec![0.01; 20];
         assert!(far.ceiling().is_some() && far.is_logarithmic());

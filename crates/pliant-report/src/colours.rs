@@ -1,12 +1,12 @@
-//! Colours: calm ones for bodies, so that red is for what intersects and nothing else.
+//! Colours: calm ones for bodies, so that red is for intersections and nothing else.
 
-/// Red, green, blue.
+/// Red, green and blue.
 pub(crate) type Colour = [u8; 3];
 
-/// What intersects.
+/// Red of intersecting triangles.
 pub(crate) const HIT: Colour = [0xd6, 0x2f, 0x2b];
 
-/// What is close, and does not intersect.
+/// Orange of triangles that are close and do not intersect.
 pub(crate) const NEAR: Colour = [0xe8, 0x8a, 0x12];
 
 pub(crate) const BODIES: [Colour; 6] = [
@@ -18,17 +18,19 @@ pub(crate) const BODIES: [Colour; 6] = [
     [0xb9, 0xb5, 0xae], // stone
 ];
 
-/// Lines of charts: readable on white and on near-black.
+/// Colours of a chart's lines, readable on white and on near-black.
 const LINES: [&str; 8] = [
     "#3f7fd0", "#c08a1e", "#3f9c6d", "#8d69c4", "#2b9fb0", "#a8678f", "#7d8590", "#8a7a4a",
 ];
 
-/// The colour of a body by its number.
+/// Colour of a body, by its number.
 pub(crate) fn of_body(number: usize) -> Colour {
     BODIES[number % BODIES.len()]
 }
 
-/// The colour of a chart's line by its number, and how it is dashed: neighbours differ in both, and no two of 24 are alike in both.
+/// Colour and dashes of a chart's line, by its number.
+///
+/// Neighbours differ in both, and no two of 24 are alike in both.
 pub(crate) fn of_line(number: usize) -> (&'static str, &'static [u8]) {
     const DASHES: [&[u8]; 3] = [&[], &[6, 3], &[2, 3]];
     (LINES[number % LINES.len()], DASHES[number % DASHES.len()])

@@ -1,6 +1,6 @@
-//! Text that may be hostile, where a page or a chart quotes it.
+//! Escaping of text that may be hostile, for pages and charts.
 
-/// Text as HTML and SVG have it.
+/// Escapes text for HTML and SVG.
 pub(crate) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
@@ -9,7 +9,7 @@ pub(crate) fn escape(text: &str) -> String {
             '>' => escaped.push_str("&gt;"),
             '&' => escaped.push_str("&amp;"),
             '"' => escaped.push_str("&quot;"),
-            // Not in XML, not even escaped.
+            // XML has no control characters, not even escaped.
             c if c.is_control() && !matches!(c, '\n' | '\t') => escaped.push('\u{fffd}'),
             c => escaped.push(c),
         }

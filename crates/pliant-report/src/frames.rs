@@ -1,189 +1,193 @@
-//! What was kept of a motion.
+//! Frames of a motion, as a recorder keeps them.
 
 use crate::label::BodyLabel;
 use pliant::{BodyId, Scalar};
 
-/// Bodies in motion, as a page can hold them; numbers for every frame, shapes for some.
+/// Bodies in motion, as a page can hold them: numbers for every frame, shapes for some.
 #[derive(Clone, Debug)]
 pub struct Motion {
-    /// Bodies, vertices and triangles in all.
+    /// Numbers of bodies, vertices and triangles.
     pub(crate) sizes: [usize; 3],
     pub(crate) bodies: Vec<BodyRecord>,
-    /// The numbers of all frames.
+    /// Numbers of all frames.
     pub(crate) numbers: Vec<u32>,
-    /// Intersecting pairs in all frames.
+    /// Number of intersecting pairs in each frame.
     pub(crate) pairs: Vec<u64>,
-    /// Ascending.
+    /// Kept frames, ascending.
     pub(crate) frames: Vec<Frame>,
-    /// Not even a few frames would fit into a page; then there are no bodies and no frames.
+    /// Whether not even a few frames fit into a page; then there are no bodies and no frames.
     pub(crate) too_large: bool,
 }
 
-/// What does not change while a body has one mesh. Of a body that gets another there is another record, with the same number.
+/// A body with one mesh. A body whose mesh changes has several records, with one number.
 #[derive(Clone, Debug)]
 pub(crate) struct BodyRecord {
     pub(crate) id: BodyId,
-    /// Of the body on the page, or of the first of its parts.
+    /// Number of the body on the page, or of the first of its parts.
     pub(crate) number: u32,
     pub(crate) label: BodyLabel,
     pub(crate) vertices: usize,
     pub(crate) triangles: Vec<[u32; 3]>,
     /// Triangles in the order of the tree.
     pub(crate) order: Vec<u32>,
-    /// For each level where its parts start in `order`.
+    /// Starts in `order` of the parts of each level.
     pub(crate) starts: Vec<Vec<u32>>,
 }
 
-/// One frame.
+/// One kept frame.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
-    /// Among all frames, from 0.
-    pub(crate) place: usize,
-    /// Of each record of a body; none of those whose mesh the body has not, or not yet, in this frame.
+    /// Index among all frames, from 0.
+    pub(crate) index: usize,
+    /// Shape for each record; `None` if the body does not have that mesh in this frame.
     pub(crate) shapes: Vec<Option<Shape>>,
     pub(crate) hits: Hits,
-    /// Sorted; those of the triangles in `hits` that intersect none, but are close to one.
+    /// Triangles in `hits` that intersect none but are close to one, sorted.
     pub(crate) near: Vec<u32>,
-    /// The nearest first; of very many the nearest.
+    /// Gaps, nearest first; of very many, the nearest.
     pub(crate) gaps: Vec<GapShown>,
-    /// Body by body, level by level, part by part: was the box made for this shape?
+    /// Whether each box was made for this shape: by body, level and part.
     pub(crate) made: Vec<bool>,
-    /// Where hits hang together, most pairs first; of very many the first.
+    /// Places, most pairs first; of very many, the first.
     pub(crate) spots: Vec<Spot>,
-    /// How many there are.
+    /// Number of all places.
     pub(crate) all_spots: usize,
-    /// What meets, of a frame that is none: the bodies are where they are in the next, behind what meets on the way to there.
+    /// Impacts behind a frame, if this is a moment between frames. The bodies then are where they
+    /// are in the next frame.
     pub(crate) moment: Option<Moment>,
 }
 
-/// What meets on the way from a frame to the next.
+/// Impacts on the way from a frame to the next.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {
-    /// The number of the next frame.
+    /// Number of the next frame.
     pub until: u32,
-    /// How many pairs of elements meet on the way; none where only the first was looked for.
+    /// Number of impacts; `None` if only the first was searched.
     pub count: Option<usize>,
-    /// The earliest first. Of very many the page keeps the first.
+    /// Impacts, the earliest first. Of very many, the page keeps the first.
     pub contacts: Vec<Contact>,
 }
 
-/// Two elements that meet on the way.
+/// Impact of two elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
-    /// When they do, from 0, in the frame, to 1, in the next.
+    /// Time of impact, from 0 in the frame to 1 in the next.
     pub time: f64,
-    /// Which they are.
+    /// The two elements.
     pub elements: Elements,
 }
 
-/// Two elements. Bodies are numbered through, those that are split part by part; vertices and triangles as in the whole.
+/// A pair of elements.
+///
+/// Bodies are numbered consecutively, split ones part by part. Vertices and triangles are numbered
+/// as in the whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Elements {
-    /// Body, vertex, body, triangle.
+    /// A vertex and a triangle: body, vertex, body, triangle.
     VertexTriangle([u32; 4]),
-    /// Body and two vertices, twice.
+    /// Two edges: body and two vertices, twice.
     EdgeEdge([u32; 6]),
 }
 
-/// Where hits hang together.
+/// A place: a connected region of intersecting pairs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spot {
-    /// The same from frame to frame while it is the same place.
+    /// Number of the place, the same in every frame of its life.
     pub number: usize,
-    /// How many pairs.
+    /// Number of pairs.
     pub count: usize,
-    /// The smallest coordinates of its triangles.
+    /// Lower corner of the bounding box of its triangles.
     pub lower: [f64; 3],
-    /// The largest.
+    /// Upper corner.
     pub upper: [f64; 3],
-    /// Whose they are. Anything may be in it.
+    /// Label with the names of its bodies. It may contain any text.
     pub label: String,
 }
 
-/// Between two triangles that are close and do not intersect.
+/// Closest points of two triangles that are close and do not intersect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
-    /// Body, triangle, body, triangle.
+    /// The pair: body, triangle, body, triangle.
     pub pair: [u32; 4],
-    /// How far apart they are.
+    /// Distance of the triangles.
     pub distance: f64,
-    /// A point of each, as far apart as that.
+    /// A closest point of each triangle.
     pub points: [[f64; 3]; 2],
 }
 
-/// The same with all bodies' triangles numbered in one row.
+/// A gap, with the triangles of all bodies numbered consecutively.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct GapShown {
     pub(crate) triangles: [u32; 2],
     pub(crate) points: [[f64; 3]; 2],
 }
 
-/// Which triangles intersect; all bodies' triangles are numbered in one row.
+/// Intersecting triangles of a frame, with the triangles of all bodies numbered consecutively.
 #[derive(Clone, Debug)]
 pub(crate) enum Hits {
-    /// Sorted.
+    /// All pairs, sorted.
     Pairs(Vec<[u32; 2]>),
-    /// Sorted; the pairs were too many.
+    /// Triangles only, sorted, since the pairs were too many.
     Triangles(Vec<u32>),
 }
 
-/// The shape of a body: its box, and positions in it from 0 to 1 along its longest side, whatever their magnitude.
+/// Shape of a body: its bounding box, and positions in it in units of its longest side.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
     pub(crate) lower: [f64; 3],
-    /// The longest side; 0 of a point.
+    /// Longest side of the box; 0 for a point.
     pub(crate) side: f64,
     pub(crate) inside: Vec<[f32; 3]>,
 }
 
 impl Motion {
-    /// Bodies, vertices and triangles in all.
+    /// Numbers of bodies, vertices and triangles in the first frame.
     pub fn sizes(&self) -> [usize; 3] {
         self.sizes
     }
 
-    /// Intersecting pairs in each frame.
+    /// Number of intersecting pairs in each frame.
     pub fn pairs(&self) -> &[u64] {
         &self.pairs
     }
 
-    /// The numbers of the frames.
+    /// Numbers of all frames.
     pub fn numbers(&self) -> &[u32] {
         &self.numbers
     }
 
-    /// The frames that can be shown, by their numbers.
+    /// Numbers of the frames that the page shows, ascending.
     pub fn shown(&self) -> impl Iterator<Item = u32> {
         let frames = self.frames.iter().filter(|frame| frame.moment.is_none());
-        frames.map(|frame| self.numbers[frame.place])
+        frames.map(|frame| self.numbers[frame.index])
     }
 
-    /// Whether a frame can be shown, by its number.
+    /// Whether the page shows a frame, by its number.
     pub(crate) fn shows(&self, number: u32) -> bool {
         self.shown().any(|shown| shown == number)
     }
 
-    /// The number of the first frame in which something intersects.
+    /// Number of the first frame with an intersection.
     pub fn first_contact(&self) -> Option<u32> {
         let place = self.pairs.iter().position(|&pairs| pairs > 0)?;
         Some(self.numbers[place])
     }
 
-    /// The first frame with the most pairs, and how many they are, where any intersect.
+    /// Number of the first frame with the most pairs, and their count. `None` without any pair.
     pub fn worst(&self) -> Option<(u32, u64)> {
         let most = self.pairs.iter().copied().max().filter(|&most| most > 0)?;
         let place = self.pairs.iter().position(|&pairs| pairs == most)?;
         Some((self.numbers[place], most))
     }
 
-    /// In how many frames something intersects.
+    /// Number of frames with an intersection.
     pub fn frames_with_hits(&self) -> usize {
         self.pairs.iter().filter(|&&pairs| pairs > 0).count()
     }
 }
 
 impl BodyRecord {
-    /// `levels`: for each level the part of each triangle.
+    /// Makes a record. `levels` has the part of each triangle, for each level of the tree.
     pub(crate) fn new(
         id: BodyId,
         number: u32,
@@ -220,7 +224,7 @@ impl BodyRecord {
 }
 
 impl Frame {
-    /// Bytes of a page, before it is compressed.
+    /// Size on the page, in bytes, before compression.
     pub(crate) fn cost(&self) -> usize {
         let vertices: usize = self
             .shapes

@@ -1,21 +1,21 @@
-//! What bodies and their parts are called on a page.
+//! Names of bodies and their parts on a page.
 
-/// A body, drawn and named.
+/// Label of a body: its name and, if any, its polygons and parts.
 #[derive(Clone, Debug, Default)]
 pub struct BodyLabel {
-    /// What people call it; its file, say. Anything may be in it.
+    /// Name for people, such as the file. It may contain any text.
     pub name: String,
-    /// For each triangle the polygon of the file that it is a part of, where they differ.
+    /// Polygon of the file that each triangle is a part of, if polygons differ from triangles.
     pub faces: Option<Vec<u32>>,
-    /// What it is split into, if each part is a body to those who read the page.
+    /// Parts, if each counts as a body on the page.
     pub parts: Option<Parts>,
 }
 
-/// What a body is split into.
+/// Parts that a body is split into.
 #[derive(Clone, Debug, Default)]
 pub struct Parts {
-    /// What each is called, behind the name of the whole and a `#`. Anything may be in it.
+    /// Names of the parts, shown behind the body's name and a `#`. They may contain any text.
     pub names: Vec<String>,
-    /// The part of each triangle; one that is of none has the number behind the last.
+    /// Part of each triangle; a triangle without a part has the number of parts.
     pub of_triangles: Vec<u32>,
 }

@@ -1,8 +1,10 @@
-//! What was asked and found, to look at: one HTML page that needs no server and no network, a picture, charts.
+//! Reports of queries and their results: an HTML page, pictures and charts.
 //!
-//! A [`Recorder`] is shown a world frame by frame and keeps what a page can hold: bodies in motion, rounded and, where there are
-//! too many frames, thinned out; which triangles intersect, and which boxes the trees made. A [`Report`] puts motions and
-//! charts together and becomes a page. [`picture`] draws one frame without a browser, [`Chart::svg`] a chart for a paper.
+//! A [`Recorder`] is shown a world frame by frame and keeps what a page can hold. It keeps bodies
+//! in motion, rounded and, with too many frames, thinned out. It keeps intersecting triangles, and
+//! the boxes that the trees made. A [`Report`] puts motions and charts together and becomes a page,
+//! which needs no server and no network. [`picture`] draws one frame without a browser,
+//! [`Chart::svg`] a chart for a paper.
 //!
 //! The page's viewer is built from `web/` and checked in under `assets/`.
 //!
@@ -31,7 +33,8 @@
     reason = "samples, colours and steps of positions are not negative"
 )]
 
-/// What every file that the program writes bears near its beginning: those with it may be written over.
+/// Mark near the beginning of every file that the program writes. A file with it may be
+/// overwritten.
 pub const MARK: &str = "written by pliant";
 
 mod chart;

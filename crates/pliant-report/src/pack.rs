@@ -1,28 +1,29 @@
-//! A motion as one run of bytes, which compresses well: small differences, bytes of equal weight side by side.
+//! Binary encoding of a motion, which compresses well: small differences, bytes of equal weight
+//! together.
 //!
-//! Positions are rounded to 65,535 steps along the longest side that their body ever has, in a box that moves with the body. A
-//! list of numbers is written as differences, low bytes first, then the next higher bytes. Positions differ from what one of
-//! three predictions says, whichever leaves least: the vertex before, the frame before, or the last two frames in a straight line.
-//! `web/src/data.js` reads it back.
+//! Positions are quantised to 65,535 steps along the longest side that their body ever has. Their
+//! box moves with the body. A list of numbers is delta-coded, and written in byte planes, the
+//! lowest first. Positions are coded against the best of three predictions: the vertex before, the
+//! frame before, or linear extrapolation of the last two frames. `web/src/data.js` is the decoder.
 
 use crate::frames::{BodyRecord, Frame, Hits, Motion, Shape};
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use std::io::Write;
 
-/// Steps along the longest side of a body.
+/// Quantisation steps along the longest side of a body.
 pub(crate) const STEPS: f64 = 65_535.0;
 
-/// Where a page puts a motion: this point in its middle, this distance as 1.
+/// Map from a motion to the page's coordinates: this point is the origin, this distance is 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct View {
+pub(crate) struct Normalisation {
     pub(crate) centre: [f64; 3],
     pub(crate) radius: f64,
 }
 
 impl Motion {
-    /// The box of all frames that are shown.
-    pub(crate) fn view(&self) -> View {
+    /// Normalisation that fits the bounding box of all frames that are shown.
+    pub(crate) fn normalisation(&self) -> Normalisation {
         let (mut lower, mut upper) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for shape in self.shapes() {
             for axis in 0..3 {
@@ -39,7 +40,7 @@ impl Motion {
             .map(|axis| (upper[axis] - lower[axis]) / 2.0)
             .fold(0.0, f64::max);
         let is_real = radius.is_finite() && radius > 0.0;
-        View {
+        Normalisation {
             centre: if is_real {
                 std::array::from_fn(|axis| f64::midpoint(lower[axis], upper[axis]))
             } else {
@@ -49,12 +50,12 @@ impl Motion {
         }
     }
 
-    /// The shapes of all bodies in all frames that are shown.
+    /// Shapes of all bodies in all frames that are shown.
     fn shapes(&self) -> impl Iterator<Item = &Shape> {
         self.frames.iter().flat_map(|frame| &frame.shapes).flatten()
     }
 
-    /// The longest side that a body ever has.
+    /// Longest side that a body ever has.
     pub(crate) fn side(&self, body: usize) -> f64 {
         self.frames
             .iter()
@@ -63,9 +64,9 @@ impl Motion {
             .fold(0.0, f64::max)
     }
 
-    /// Everything but names and numbers, compressed.
+    /// Encodes and compresses everything but names and numbers.
     pub(crate) fn pack(&self) -> Vec<u8> {
-        let view = self.view();
+        let normalisation = self.normalisation();
         let mut out = Packer::new();
         for body in &self.bodies {
             out.body(body);
@@ -76,21 +77,23 @@ impl Motion {
         let bits: usize = levels.map(Vec::len).sum();
         for frame in &self.frames {
             for body in 0..self.bodies.len() {
-                // A byte says whether the body has this mesh.
+                // A byte tells whether the body has this mesh.
                 let shape = frame.shapes.get(body).and_then(Option::as_ref);
                 out.bytes(&[u8::from(shape.is_some())]);
                 let Some(shape) = shape else {
                     continue;
                 };
                 for axis in 0..3 {
-                    out.float((shape.lower[axis] - view.centre[axis]) / view.radius);
+                    out.float(
+                        (shape.lower[axis] - normalisation.centre[axis]) / normalisation.radius,
+                    );
                 }
                 let steps = if sides[body] > 0.0 {
                     STEPS * (shape.side / sides[body])
                 } else {
                     0.0
                 };
-                // Axis by axis: neighbours in the list then mean the same.
+                // Axis by axis, so that neighbours in the list are alike.
                 let rounded: Vec<u16> = (0..3)
                     .flat_map(|axis| shape.inside.iter().map(move |position| position[axis]))
                     .map(|inside| (f64::from(inside) * steps).round() as u16)
@@ -109,7 +112,9 @@ impl Motion {
             for gap in &frame.gaps {
                 for point in gap.points {
                     for axis in 0..3 {
-                        out.float((point[axis] - view.centre[axis]) / view.radius);
+                        out.float(
+                            (point[axis] - normalisation.centre[axis]) / normalisation.radius,
+                        );
                     }
                 }
             }
@@ -129,7 +134,7 @@ impl Packer {
     }
 
     fn finish(self) -> Vec<u8> {
-        // Into memory: nothing can fail.
+        // Writing to memory cannot fail.
         self.0.finish().unwrap_or_default()
     }
 
@@ -155,7 +160,7 @@ impl Packer {
         }
     }
 
-    /// Each number as its difference to the one before.
+    /// Writes the difference of each number to the one before.
     fn words(&mut self, numbers: impl Iterator<Item = u32>) {
         let mut last = 0;
         let differences: Vec<u32> = numbers
@@ -225,14 +230,14 @@ impl Packer {
     }
 }
 
-/// What a prediction leaves to be written.
+/// Differences between values and their predictions.
 fn left_by(now: &[u16], prediction: impl Fn(usize) -> u16) -> Vec<u16> {
     (0..now.len())
         .map(|i| now[i].wrapping_sub(prediction(i)))
         .collect()
 }
 
-/// Small differences of either sign as small numbers.
+/// Zigzag code: small differences of either sign become small numbers.
 fn zigzag(difference: u16) -> u16 {
     let signed = difference as i16;
     ((signed << 1) ^ (signed >> 15)).cast_unsigned()
@@ -247,7 +252,7 @@ mod tests {
     use pliant::BodyId;
     use std::io::Read;
 
-    /// What `web/src/data.js` does, and nothing that the packer does.
+    /// Decoder like `web/src/data.js`, which shares nothing with the encoder.
     struct Unpacker {
         bytes: Vec<u8>,
         at: usize,
@@ -279,7 +284,7 @@ mod tests {
             (0..count).map(word).collect()
         }
 
-        /// Which prediction was taken, and the positions.
+        /// Mode of the prediction, and the decoded positions.
         fn positions(&mut self, count: usize, before: &[Vec<u16>; 2]) -> (u8, Vec<u16>) {
             let [mode] = self.array();
             let planes = [(); 2].map(|()| self.slice(count));
@@ -318,8 +323,10 @@ mod tests {
         )
     }
 
-    /// A heap of points that stands, then moves on evenly inside a box that stays, then jumps; beside it something that grows from
-    /// a point and is, at its largest, twice as far from the origin along x.
+    /// A heap of points that stands, then moves on evenly in a fixed box, then jumps; and a growing
+    /// body.
+    ///
+    /// The second body grows from a point. At its largest it reaches twice as far along x.
     fn motion() -> Motion {
         let heap = |frame: u32| -> Vec<[f64; 3]> {
             let mut points = vec![[0.0; 3], [1.0, 0.5, 0.25]];
@@ -343,7 +350,7 @@ mod tests {
             ]
         };
         let frame = |frame: u32| Frame {
-            place: frame as usize,
+            index: frame as usize,
             shapes: [heap(frame), grown(frame)]
                 .iter()
                 .map(|positions| Some(Shape::of(positions)))
@@ -392,13 +399,13 @@ mod tests {
     #[test]
     fn what_is_packed_can_be_read_back() {
         let motion = motion();
-        let view = motion.view();
+        let normalisation = motion.normalisation();
         // The second body reaches from -1 to 17.
-        let expected = View {
+        let expected = Normalisation {
             centre: [8.0, -0.25, 3.5],
             radius: 9.0,
         };
-        assert_eq!(view, expected);
+        assert_eq!(normalisation, expected);
         assert_eq!([motion.side(0), motion.side(1)], [1.0, 18.0]);
 
         let mut packed = Unpacker::new(&motion.pack());
@@ -427,14 +434,14 @@ mod tests {
                 };
                 assert_eq!(is_there, 1);
                 for axis in 0..3 {
-                    let lower =
-                        f64::from_le_bytes(packed.array()) * view.radius + view.centre[axis];
+                    let lower = f64::from_le_bytes(packed.array()) * normalisation.radius
+                        + normalisation.centre[axis];
                     assert!((lower - shape.lower[axis]).abs() < 1e-12);
                 }
                 let count = shape.inside.len();
                 let (mode, now) = packed.positions(3 * count, &before[number]);
                 modes.push(mode);
-                // Half a step, and what single precision leaves of the largest.
+                // Half a step, and the rounding of the largest in single precision.
                 let step = motion.side(number) / STEPS;
                 for (at, &steps) in now.iter().enumerate() {
                     let truth = f64::from(shape.inside[at % count][at / count]) * shape.side;
@@ -463,8 +470,8 @@ mod tests {
                 assert_eq!([a[number], b[number]], gap.triangles);
                 for point in gap.points {
                     for axis in 0..3 {
-                        let x = f64::from_le_bytes(packed.array()) * view.radius;
-                        assert!((x + view.centre[axis] - point[axis]).abs() < 1e-12);
+                        let x = f64::from_le_bytes(packed.array()) * normalisation.radius;
+                        assert!((x + normalisation.centre[axis] - point[axis]).abs() < 1e-12);
                     }
                 }
             }
@@ -473,7 +480,8 @@ mod tests {
             assert!(bits.eq(frame.made.iter().copied()));
         }
         assert_eq!(packed.at, packed.bytes.len());
-        // The heap: nothing before it, as before, as before, evenly on, and so on; then a jump.
+        // Modes of the heap: no frame before, frame before, frame before, linear, and so on; then a
+        // jump.
         let of_heap: Vec<u8> = modes.into_iter().step_by(2).collect();
         assert_eq!(of_heap[..2], [0, 1]);
         assert_eq!(of_heap[3..5], [2, 2]);

@@ -1,14 +1,15 @@
-//! The page: one file, nothing from outside it.
+//! The HTML page: one file, which loads nothing from outside.
 //!
-//! Text from files and commands (names, paths) may be hostile. It goes into the page in two places only: escaped in the title,
-//! and as JSON in which `<` is written `\u003c`, so that no text can end the element it is in. The viewer shows text as text.
+//! Text from files and commands (names, paths) may be hostile. It goes into the page in two places
+//! only: escaped in the title, and as JSON. In the JSON `<` is written `\u003c`, so that no text
+//! can end the element it is in. The viewer shows text as text.
 
 use crate::MARK;
 use crate::chart::Chart;
 use crate::colours::{BODIES, HIT, NEAR, of_line};
 use crate::escape::escape;
 use crate::frames::{Elements, Frame, Motion};
-use crate::pack::{STEPS, View};
+use crate::pack::{Normalisation, STEPS};
 use crate::report::{Play, Report};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -18,7 +19,7 @@ const VIEWER: &str = include_str!("../assets/viewer.js");
 const STYLE: &str = include_str!("../assets/viewer.css");
 
 impl Report {
-    /// The whole page.
+    /// Renders the report as one HTML file. Costs O(n) for n bytes of the page.
     pub fn page(&self) -> String {
         let facts = |facts: &[(String, String)]| json!(facts);
         let head = json!({
@@ -40,14 +41,14 @@ impl Report {
             }
             data.push_str("</script>\n");
         }
-        // `default-src 'none'`: the browser itself refuses whatever would be asked for from outside.
+        // The browser itself refuses to load anything from outside.
         format!(
             r#"<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
 <meta name="generator" content="{MARK}">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:">
+<meta http-equiv="Content-Security-Policy" content="{POLICY}">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
 <title>{title}</title>
@@ -55,7 +56,7 @@ impl Report {
 {STYLE}</style>
 </head>
 <body>
-<main id="page"><noscript>This report needs JavaScript, which your browser does not run.</noscript></main>
+<main id="page"><noscript>{NO_SCRIPT}</noscript></main>
 <script type="application/json" id="report">{head}</script>
 {data}<script>
 {VIEWER}</script>
@@ -83,7 +84,11 @@ impl Report {
     }
 }
 
-/// What the picture leaves out.
+/// Content security policy of the page: nothing from outside.
+const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; \
+    style-src 'unsafe-inline'; img-src data: blob:";
+const NO_SCRIPT: &str = "This report needs JavaScript, which your browser does not run.";
+/// Note about frames that the viewer does not show; `None` if it shows all.
 fn thinned(motion: &Motion, along: &str) -> Option<String> {
     let (shown, all) = (motion.shown().count(), motion.numbers.len());
     if motion.too_large {
@@ -101,7 +106,7 @@ fn thinned(motion: &Motion, along: &str) -> Option<String> {
             ),
             (last, "the last".to_owned()),
         ];
-        // Not where a mesh was too large to be drawn.
+        // Excludes frames whose mesh was too large to be drawn.
         let there = those
             .into_iter()
             .filter_map(|(number, what)| motion.shows(number?).then_some(what));
@@ -111,7 +116,8 @@ fn thinned(motion: &Motion, along: &str) -> Option<String> {
             [some @ .., last] => format!("; {} and {last} are among them", some.join(", ")),
         };
         Some(format!(
-            "The picture shows {shown} of {all} {along}s, to keep the page small{there}. Figures are of all {along}s."
+            "The picture shows {shown} of {all} {along}s, to keep the page small{there}. \
+             Figures are of all {along}s."
         ))
     } else {
         None
@@ -119,7 +125,7 @@ fn thinned(motion: &Motion, along: &str) -> Option<String> {
 }
 
 fn motion(motion: &Motion) -> Value {
-    let view = motion.view();
+    let normalisation = motion.normalisation();
     let bodies = motion.bodies.iter().enumerate().map(|(number, body)| {
         json!({
             "name": body.label.name,
@@ -129,21 +135,21 @@ fn motion(motion: &Motion) -> Value {
             "triangles": body.triangles.len(),
             "levels": body.starts.iter().map(Vec::len).collect::<Value>(),
             "faces": body.label.faces.is_some(),
-            "step": motion.side(number) / STEPS / view.radius,
+            "step": motion.side(number) / STEPS / normalisation.radius,
         })
     });
     json!({
         "numbers": motion.numbers,
         "pairs": motion.pairs,
-        "places": motion.frames.iter().map(|frame| spots(frame, view)).collect::<Value>(),
+        "places": motion.frames.iter().map(|frame| spots(frame, normalisation)).collect::<Value>(),
         "placeCounts": motion.frames.iter().map(|frame| frame.all_spots).collect::<Value>(),
-        "frames": motion.frames.iter().map(|frame| frame.place).collect::<Value>(),
+        "frames": motion.frames.iter().map(|frame| frame.index).collect::<Value>(),
         "moments": motion.frames.iter().map(moment).collect::<Value>(),
         "bodies": bodies.collect::<Value>(),
     })
 }
 
-/// What lies between two frames: of each contact its time, and the numbers of its elements.
+/// JSON of the impacts between two frames: the time of each, and the numbers of its elements.
 fn moment(frame: &Frame) -> Value {
     let Some(moment) = &frame.moment else {
         return Value::Null;
@@ -165,10 +171,13 @@ fn moment(frame: &Frame) -> Value {
     })
 }
 
-/// Places of a frame, as the page puts its motion: number, pairs, smallest and largest coordinates, whose.
-fn spots(frame: &Frame, view: View) -> Value {
+/// JSON of a frame's places, in the page's coordinates: number, pairs, lower and upper corner,
+/// label.
+fn spots(frame: &Frame, normalisation: Normalisation) -> Value {
     let inside = |corner: [f64; 3]| -> [f64; 3] {
-        std::array::from_fn(|axis| (corner[axis] - view.centre[axis]) / view.radius)
+        std::array::from_fn(|axis| {
+            (corner[axis] - normalisation.centre[axis]) / normalisation.radius
+        })
     };
     let spots = frame.spots.iter();
     let spots = spots.map(|it| {

@@ -1,11 +1,10 @@
-//! Watches a world frame by frame and keeps what a page can hold.
+//! Recorder: watches a world frame by frame and keeps what a page can hold.
 //!
-//! However many frames come, and however many triangles meet, what is kept stays within [`BUDGET`]: when it is full, every
-//! second frame that is kept is let go, again and again. The first frame with a contact, the one with the most pairs and the
-//! last are kept whatever happens. Moments between frames are kept with the frame before them, and the first with its own, where
-//! there is room. Numbers (pairs in each frame) are kept for all frames.
-//!
-//! A body that gets another mesh has a record more from that frame on. A record goes when the last frame that shows it goes.
+//! For any number of frames and pairs, what is kept stays within [`BUDGET`]. When that is full,
+//! every second kept frame is dropped, again and again. The first frame with a contact, the frame
+//! with the most pairs and the last frame are always kept. Numbers of pairs are kept for all
+//! frames. A moment between frames is kept with the frame before it, and the first moment too, if
+//! there is room.
 
 use crate::frames::{BodyRecord, Frame, Gap, GapShown, Hits, Moment, Motion, Shape, Spot};
 use crate::label::BodyLabel;
@@ -13,65 +12,74 @@ use pliant::{BodyId, Scalar, World};
 use std::borrow::Cow;
 use std::sync::{Arc, Weak};
 
-/// The most bytes of frames that go into a page, before they are compressed: positions rounded to two bytes, pairs as eight.
-/// In memory a frame takes twice as much.
+/// Most bytes of frames on a page, before compression.
+///
+/// A coordinate is rounded to two bytes, and a pair takes eight. In memory a frame takes twice as
+/// much.
 const BUDGET: usize = 30 << 20;
 
-/// Above this number of pairs in a frame, only which triangles are red is kept, not with whom each meets.
+/// Most pairs of a frame that are kept as pairs; of more, only the triangles are kept. Bounds the
+/// page.
 const MOST_PAIRS: usize = 100_000;
 
-/// Gaps of a frame that are kept.
+/// Most gaps of a frame that are kept, the nearest. Bounds the page.
 const MOST_GAPS: usize = 5_000;
 
-/// Places of a frame that are kept.
+/// Most places of a frame that are kept, the largest. Bounds the page.
 const MOST_SPOTS: usize = 40;
 
-/// Contacts on the way between two frames that are kept: the earliest.
+/// Most impacts between two frames that are kept, the earliest. Bounds the page.
 const MOST_CONTACTS: usize = 1_000;
 
-/// Levels of a tree that can be shown.
+/// Most levels of a tree that are shown.
 const MOST_LEVELS: u32 = 16;
 
-/// A frame, and the meshes that its bodies have in it: its triangles are numbered in a row through these.
+/// A frame and the meshes of its bodies in it. Its triangles are numbered consecutively through
+/// these.
 #[derive(Clone)]
 struct Kept {
     frame: Frame,
     meshes: Vec<Arc<BodyRecord>>,
 }
 
-/// Keeps the frames of one motion for a report.
+/// Recorder of one motion for a report.
+///
+/// A body whose mesh changes has one more record from that frame on. A record is dropped with the
+/// last frame that shows it.
 pub struct Recorder {
     labels: Vec<BodyLabel>,
-    /// The bodies of the first frame, each with the mesh that it has now.
+    /// Bodies of the first frame, each with its current mesh.
     known: Vec<(BodyId, Arc<BodyRecord>)>,
-    /// Bodies, vertices and triangles in all.
+    /// Numbers of bodies, vertices and triangles.
     sizes: [usize; 3],
-    /// Meshes in the order in which they came; those that no frame shows any more are gone.
+    /// Meshes in the order in which they came. Meshes that no kept frame has are gone.
     meshes: Vec<Weak<BodyRecord>>,
     budget: usize,
     numbers: Vec<u32>,
     pairs: Vec<u64>,
     kept: Vec<Arc<Kept>>,
-    /// The sum of the costs of `kept`, without meshes.
+    /// Sum of the costs of `kept`, without meshes.
     cost: usize,
-    /// Frames whose place is a multiple of this are kept.
+    /// Frames whose index is a multiple of this are kept.
     stride: usize,
     first_contact: Option<Arc<Kept>>,
     worst: Option<Arc<Kept>>,
     last: Option<Arc<Kept>>,
-    /// With the frame before it.
+    /// The first moment, with the frame before it.
     first_moment: Option<[Arc<Kept>; 2]>,
     too_large: bool,
 }
 
 impl Recorder {
-    /// Labels for the bodies, in their order; bodies without one have numbers only.
+    /// Creates a recorder. `labels` are for the bodies in their order; a body without one is named
+    /// by its number.
     pub fn new(labels: Vec<BodyLabel>) -> Self {
         Self::within(labels, BUDGET)
     }
 
-    /// The same for one of several motions on a page, which share what a page can hold; at least a few frames of bodies of
-    /// 20,000 triangles each find room.
+    /// Creates a recorder for one of several motions on a page, which share its budget.
+    ///
+    /// At least a few frames of bodies of 20,000 triangles each fit.
     pub fn one_of(labels: Vec<BodyLabel>, motions: usize) -> Self {
         Self::within(labels, (BUDGET / motions.max(1)).max(BUDGET / 8))
     }
@@ -96,14 +104,19 @@ impl Recorder {
         }
     }
 
-    /// Takes a frame: its number, the world in it, and the pairs found: body, triangle, body, triangle. The bodies are those of
-    /// the first frame; pairs of others are counted and not drawn. The world's boxes are as the queries left them.
+    /// Records a frame: its number, the world in it, and the pairs found: body, triangle, body,
+    /// triangle.
+    ///
+    /// The bodies are the first frame's. Pairs of other bodies are counted and not drawn. The
+    /// world's boxes are as the queries left them. O(n log n) for n vertices, triangles and pairs.
     pub fn frame<S: Scalar>(&mut self, number: u32, world: &World<S>, pairs: &[[u32; 4]]) {
         self.frame_with(number, world, pairs, &[], &[]);
     }
 
-    /// The same, with the places where the pairs hang together, most pairs first; and of pairs that are close and do not intersect the
-    /// gaps, sorted by pair.
+    /// [`frame`](Self::frame) with places and gaps.
+    ///
+    /// `spots` are the places of the pairs, most pairs first. `gaps` are the closest points of
+    /// pairs that do not intersect, sorted by pair.
     pub fn frame_with<S: Scalar>(
         &mut self,
         number: u32,
@@ -112,16 +125,16 @@ impl Recorder {
         spots: &[Spot],
         gaps: &[Gap],
     ) {
-        let place = self.numbers.len();
+        let index = self.numbers.len();
         self.numbers.push(number);
         self.pairs.push(pairs.len() as u64);
-        if place == 0 {
+        if index == 0 {
             self.meet_bodies(world);
         }
         if self.too_large || !self.meet_meshes(world) {
             return;
         }
-        let mut frame = self.look(place, world, pairs, gaps);
+        let mut frame = self.look(index, world, pairs, gaps);
         frame.spots = spots.iter().take(MOST_SPOTS).cloned().collect();
         frame.all_spots = spots.len();
         let kept = self.with_meshes(frame);
@@ -129,7 +142,7 @@ impl Recorder {
         if count > 0 && self.first_contact.is_none() {
             self.first_contact = Some(kept.clone());
         }
-        let most = |worst: &Arc<Kept>| self.pairs[worst.frame.place];
+        let most = |worst: &Arc<Kept>| self.pairs[worst.frame.index];
         if count > self.worst.as_ref().map_or(0, most) {
             self.worst = Some(kept.clone());
         }
@@ -137,15 +150,17 @@ impl Recorder {
         self.keep(kept);
     }
 
-    /// Takes what meets on the way from the frame taken last to another: the world is in that frame, and its bodies have motions to the
-    /// other. The page shows the bodies as they are when two elements meet.
+    /// Records impacts on the way from the frame recorded last to another.
+    ///
+    /// The world is in that frame, and its bodies have motions to the other. The page shows the
+    /// bodies at the time of an impact.
     pub fn moment<S: Scalar>(&mut self, world: &World<S>, moment: &Moment) {
-        // Where the frame is not drawn neither is what follows.
-        let Some(place) = self.numbers.len().checked_sub(1) else {
+        // If the frame is not drawn, its moment is not either.
+        let Some(index) = self.numbers.len().checked_sub(1) else {
             return;
         };
         let last = self.last.clone();
-        let Some(last) = last.filter(|last| last.frame.place == place) else {
+        let Some(last) = last.filter(|last| last.frame.index == index) else {
             return;
         };
         let shape = |mesh: &Arc<BodyRecord>| {
@@ -155,12 +170,12 @@ impl Recorder {
         };
         let contacts = moment.contacts.iter().take(MOST_CONTACTS);
         let frame = Frame {
-            place,
+            index,
             shapes: last.meshes.iter().map(shape).collect(),
             hits: Hits::Pairs(Vec::new()),
             near: Vec::new(),
             gaps: Vec::new(),
-            // Boxes are of the shape of the frame.
+            // The boxes belong to the frame's shape, not to this one.
             made: vec![false; last.frame.made.len()],
             spots: Vec::new(),
             all_spots: 0,
@@ -169,7 +184,7 @@ impl Recorder {
                 ..*moment
             }),
         };
-        // Beside the four frames that have room whatever happens.
+        // Besides the four frames that always have room.
         let has_room = self.cost_of_meshes() + 6 * frame.cost() <= self.budget;
         let kept = self.with_meshes(frame);
         if self.first_moment.is_none() && has_room {
@@ -186,28 +201,28 @@ impl Recorder {
         })
     }
 
-    /// Bytes of a page that the meshes take.
+    /// Size of the meshes on the page, in bytes.
     fn cost_of_meshes(&self) -> usize {
         let meshes = self.meshes.iter().filter_map(Weak::upgrade);
         meshes.map(|mesh| mesh.cost()).sum()
     }
 
-    /// Keeps a frame, and lets go what does not fit.
+    /// Keeps a frame, and drops what does not fit.
     fn keep(&mut self, kept: Arc<Kept>) {
-        if kept.frame.place.is_multiple_of(self.stride) {
+        if kept.frame.index.is_multiple_of(self.stride) {
             self.cost += kept.frame.cost();
             self.kept.push(kept);
         }
         while self.cost + self.cost_of_meshes() > self.budget && self.kept.len() > 1 {
             self.stride *= 2;
             let stride = self.stride;
-            self.kept.retain(|it| it.frame.place.is_multiple_of(stride));
+            self.kept.retain(|it| it.frame.index.is_multiple_of(stride));
             self.cost = self.kept.iter().map(|it| it.frame.cost()).sum();
         }
         self.meshes.retain(|mesh| mesh.strong_count() > 0);
     }
 
-    /// What was kept.
+    /// Ends the recording and returns the motion.
     pub fn finish(self) -> Motion {
         let mut kept = self.kept;
         kept.extend(
@@ -216,11 +231,11 @@ impl Recorder {
                 .flatten(),
         );
         kept.extend(self.first_moment.into_iter().flatten());
-        // A moment comes behind its frame.
-        let key = |it: &Arc<Kept>| (it.frame.place, it.frame.moment.is_some());
+        // A moment comes after its frame.
+        let key = |it: &Arc<Kept>| (it.frame.index, it.frame.moment.is_some());
         kept.sort_by_key(key);
         kept.dedup_by_key(|it| key(it));
-        // One row of all triangles; a mesh that a body had in no frame that is shown is not in it.
+        // Numbers all triangles consecutively. A mesh that no shown frame has is left out.
         drop(self.known);
         let meshes: Vec<_> = self.meshes.iter().filter_map(Weak::upgrade).collect();
         let is_shown = |mesh: &&Arc<BodyRecord>| {
@@ -242,7 +257,7 @@ impl Recorder {
         }
     }
 
-    /// The bodies, their triangles and trees.
+    /// Takes the bodies of the first frame, their triangles and trees.
     fn meet_bodies<S: Scalar>(&mut self, world: &World<S>) {
         let ids: Vec<BodyId> = world.bodies().collect();
         let sizes = ids
@@ -251,7 +266,7 @@ impl Recorder {
         let (vertices, triangles) =
             sizes.fold((0, 0), |sum, size| (sum.0 + size.0, sum.1 + size.1));
         self.sizes = [ids.len(), vertices, triangles];
-        // The frames that are kept whatever happens must fit.
+        // The frames that are always kept must fit.
         self.too_large = COST_OF_TRIANGLE * triangles + 4 * 6 * vertices > self.budget;
         if self.too_large {
             return;
@@ -265,7 +280,7 @@ impl Recorder {
         let mut number = 0;
         for (id, (label, unnamed)) in ids.into_iter().zip(named) {
             let mut label = label.unwrap_or(unnamed);
-            // Parts of other triangles than there are would be those of nothing.
+            // Parts of another number of triangles would not match.
             let count = world.triangle_count(id).unwrap_or_default();
             label.parts = label
                 .parts
@@ -287,14 +302,14 @@ impl Recorder {
         }
     }
 
-    /// Takes the meshes that bodies have now and had not in the frame before; says whether there is room for them.
+    /// Takes meshes that have changed since the frame before. Returns whether they fit.
     fn meet_meshes<S: Scalar>(&mut self, world: &World<S>) -> bool {
         for place in 0..self.known.len() {
             let (id, now) = &self.known[place];
             let id = *id;
             let triangles = drawn_triangles(world, id);
             let (Some(triangles), Ok(vertices)) = (triangles, world.vertex_count(id)) else {
-                // It was removed.
+                // The body was removed.
                 continue;
             };
             let is_mesh = |mesh: &BodyRecord| {
@@ -303,13 +318,13 @@ impl Recorder {
             if is_mesh(now) {
                 continue;
             }
-            // Meshes may come back.
+            // A body may return to an earlier mesh.
             let mut earlier = self.meshes.iter().filter_map(Weak::upgrade);
             if let Some(earlier) = earlier.find(|mesh| is_mesh(mesh)) {
                 self.known[place].1 = earlier;
                 continue;
             }
-            // What is known of faces is known of the first mesh.
+            // Faces and parts are known for the first mesh only.
             let label = BodyLabel {
                 name: now.label.name.clone(),
                 ..BodyLabel::default()
@@ -317,7 +332,7 @@ impl Recorder {
             let number = now.number;
             self.take_mesh(record(world, id, number, label, triangles.into_owned()));
         }
-        // With other meshes than those of the first frame, four frames must fit.
+        // Four frames must fit with meshes other than the first frame's.
         let first = self.kept.first();
         let is_first = |mesh: &Arc<BodyRecord>| {
             first.is_none_or(|first| first.meshes.iter().any(|it| Arc::ptr_eq(it, mesh)))
@@ -330,7 +345,7 @@ impl Recorder {
 
     fn look<S: Scalar>(
         &self,
-        place: usize,
+        index: usize,
         world: &World<S>,
         pairs: &[[u32; 4]],
         gaps: &[Gap],
@@ -408,7 +423,7 @@ impl Recorder {
             }
         }
         Frame {
-            place,
+            index,
             shapes,
             hits,
             near,
@@ -421,22 +436,23 @@ impl Recorder {
     }
 }
 
-/// Corners and the order of the tree; its levels together are about as long again.
+/// Bytes of a triangle: its corners, and the tree's order. All levels together take about as much
+/// again.
 const COST_OF_TRIANGLE: usize = 20;
 
 impl BodyRecord {
-    /// Bytes of a page, before it is compressed.
+    /// Size on the page, in bytes, before compression.
     fn cost(&self) -> usize {
         COST_OF_TRIANGLE * self.triangles.len()
     }
 
-    /// How many parts all levels of the tree have.
+    /// Number of parts in all levels of the tree.
     fn parts_of_tree(&self) -> usize {
         self.starts.iter().map(Vec::len).sum()
     }
 }
 
-/// A body with the mesh that it has now.
+/// Record of a body with its current mesh.
 fn record<S: Scalar>(
     world: &World<S>,
     id: BodyId,
@@ -452,7 +468,7 @@ fn record<S: Scalar>(
     BodyRecord::new(id, number, label, vertices, triangles, &levels)
 }
 
-/// A frame whose triangles are numbered in a row through these meshes, its own among them.
+/// Renumbers the triangles of a frame consecutively through `meshes`, which include its own.
 fn in_row(kept: Kept, meshes: &[Arc<BodyRecord>]) -> Frame {
     let Kept {
         mut frame,
@@ -460,7 +476,8 @@ fn in_row(kept: Kept, meshes: &[Arc<BodyRecord>]) -> Frame {
     } = kept;
     let place = |mesh: &Arc<BodyRecord>| own.iter().position(|it| Arc::ptr_eq(it, mesh));
     let places: Vec<Option<usize>> = meshes.iter().map(place).collect();
-    // Of each of its own meshes where that begins there, and where in the row; of its boxes there.
+    // Start of each own mesh's triangles in its numbering, and then in the new one; start of its
+    // boxes.
     let (mut starts, mut boxes) = (vec![0], vec![0]);
     for mesh in &own {
         starts.push(starts[starts.len() - 1] + mesh.triangles.len() as u32);
@@ -508,16 +525,16 @@ fn in_row(kept: Kept, meshes: &[Arc<BodyRecord>]) -> Frame {
     frame
 }
 
-/// A vertex of a body that is there.
+/// Some vertex of a triangle that is not empty.
 fn some_vertex(triangles: &[[u32; 3]]) -> u32 {
     let mut live = triangles.iter().filter(|corners| **corners != EMPTY);
     live.next().map_or(0, |corners| corners[0])
 }
 
-/// The corners of a number that an edit has left empty.
+/// Corners of a triangle's number that an edit has left empty.
 const EMPTY: [u32; 3] = [u32::MAX; 3];
 
-/// The triangles of a body; a number that is empty is drawn as a point.
+/// Triangles of a body; an empty one is drawn as a point.
 fn drawn_triangles<S: Scalar>(world: &World<S>, id: BodyId) -> Option<Cow<'_, [[u32; 3]]>> {
     let triangles = world.triangles(id).ok()?;
     if !triangles.contains(&EMPTY) {
@@ -528,7 +545,7 @@ fn drawn_triangles<S: Scalar>(world: &World<S>, id: BodyId) -> Option<Cow<'_, [[
     Some(triangles.iter().map(drawn).collect())
 }
 
-/// Where the vertices of a body are; one that is empty is where another is.
+/// Positions of a body's vertices; an empty vertex is put on another.
 fn drawn_positions<S: Scalar>(world: &World<S>, id: BodyId) -> Option<Vec<[S; 3]>> {
     let mut positions = world.positions(id).ok()?;
     let is_live = world.live_vertices(id).ok()?;
@@ -540,7 +557,7 @@ fn drawn_positions<S: Scalar>(world: &World<S>, id: BodyId) -> Option<Vec<[S; 3]
     Some(positions)
 }
 
-/// The parts of a tree that is cut at a level; a number that is empty is in the first.
+/// Part of each triangle in a cut of the tree at a level; an empty triangle is in the first.
 fn drawn_parts<S: Scalar>(world: &World<S>, id: BodyId, level: u32) -> Vec<u32> {
     let mut parts = world.tree_cut(id, level).unwrap_or_default();
     for part in parts.iter_mut().filter(|part| **part == u32::MAX) {
@@ -557,14 +574,14 @@ mod tests {
     use crate::report::{Play, Report};
     use pliant::Options;
 
-    /// Bytes of all that is kept, but for frames that are kept whatever happens.
+    /// Bytes of all that is kept, except frames that are always kept.
     fn cost(recorder: &Recorder) -> usize {
         let frames: usize = recorder.kept.iter().map(|it| it.frame.cost()).sum();
         assert_eq!(recorder.cost, frames);
         frames + recorder.cost_of_meshes()
     }
 
-    /// One triangle that moves, in frames of 18 bytes and 8 for each pair; the body alone takes 20.
+    /// Records a moving triangle. A frame takes 18 bytes and 8 for each pair; the body takes 20.
     fn record(budget: usize, counts: &[usize]) -> Motion {
         let mut world = World::<f32>::new();
         let body = world
@@ -584,7 +601,7 @@ mod tests {
     #[test]
     fn frames_are_thinned_evenly_and_those_that_matter_stay() {
         let mut counts = [0; 100];
-        // The first contact, the most pairs, and as many once more.
+        // The first contact, the most pairs, and as many again.
         (counts[37], counts[71], counts[83]) = (1, 2, 2);
         let all = 20 + 18 * 100 + 8 * 5;
         assert_eq!(record(all, &counts).shown().count(), 100);
@@ -597,7 +614,7 @@ mod tests {
             );
         }
         let motion = record(20 + 18 * 30, &counts);
-        // Figures are of all frames.
+        // Figures count all frames.
         assert_eq!(motion.pairs().len(), 100);
         assert_eq!(
             (motion.first_contact(), motion.worst()),
@@ -631,7 +648,7 @@ mod tests {
         let places: Vec<_> = motion
             .frames
             .iter()
-            .map(|it| (it.place, it.moment.is_some()))
+            .map(|it| (it.index, it.moment.is_some()))
             .collect();
         assert_eq!(places, [(0, false), (0, true), (1, false)]);
         assert!(motion.shown().eq([5, 8]) && motion.pairs() == [0, 0]);
@@ -667,12 +684,12 @@ mod tests {
                 assert!(cost(&recorder) <= budget || recorder.kept.len() == 1);
             }
             let frames = recorder.finish().frames;
-            // Each with its frame before it.
+            // Each moment follows its frame.
             for (at, frame) in frames.iter().enumerate() {
-                assert!(frame.moment.is_none() || frames[at - 1].place == frame.place);
+                assert!(frame.moment.is_none() || frames[at - 1].index == frame.index);
             }
             let moments = frames.iter().filter(|it| it.moment.is_some());
-            moments.map(|it| it.place).collect()
+            moments.map(|it| it.index).collect()
         };
         assert_eq!(moments(1 << 20), (5..64).collect::<Vec<_>>());
         // A moment costs 118 bytes.
@@ -719,14 +736,14 @@ mod tests {
                 .iter()
                 .all(|frame| frame.made.len() == motion.frames[0].made.len())
         );
-        // Bodies that are gone are not drawn.
+        // Removed bodies are not drawn.
         let shown = |frame: &Frame| frame.shapes.iter().map(Option::is_some).collect();
         let shown: Vec<Vec<bool>> = motion.frames.iter().map(shown).collect();
         assert_eq!(
             shown,
             [[true, true], [false, true], [false, false], [false, false]]
         );
-        assert!(!motion.pack().is_empty() && motion.view().radius > 0.0);
+        assert!(!motion.pack().is_empty() && motion.normalisation().radius > 0.0);
     }
 
     #[test]
@@ -741,7 +758,7 @@ mod tests {
             .set_mesh(body, &[[0, 1, 2], [2, 1, 3]], &square)
             .unwrap();
         recorder.frame(1, &world, &[[0, 0, 1, 1]]);
-        // Back to the first, then as many triangles as the second has, but others.
+        // Back to the first mesh, then a mesh with as many triangles as the second, but others.
         world.set_mesh(body, &[[0, 1, 2]], &flat).unwrap();
         recorder.frame(2, &world, &[[0, 0, 1, 0], [0, 0, 1, 1]]);
         world
@@ -771,7 +788,7 @@ mod tests {
             Hits::Triangles(_) => Vec::new(),
         };
         let pairs: Vec<_> = motion.frames.iter().map(pairs).collect();
-        // Triangle 1 of the first mesh there is not.
+        // The first mesh has no triangle 1.
         assert_eq!(pairs, [[[0, 1]], [[0, 3]], [[0, 1]], [[0, 5]]]);
         assert!(!motion.pack().is_empty());
     }
@@ -784,7 +801,8 @@ mod tests {
         let record = |world: &mut World<f32>, budget: usize, most: usize| {
             let mut recorder = Recorder::within(Vec::new(), budget);
             for frame in 0..50 {
-                // Each frame has a mesh of its own, but for two that have that of the frame before.
+                // Each frame has a mesh of its own, except two that keep the mesh of the frame
+                // before.
                 let triangles = most + frame - frame % 25 / 24;
                 world
                     .set_mesh(body, &vec![[0, 1, 2]; triangles], &flat)
@@ -795,19 +813,19 @@ mod tests {
                     _ => Vec::new(),
                 };
                 recorder.frame(frame as u32, world, &pairs);
-                let is_drawn = recorder.last.as_ref().unwrap().frame.place == frame;
+                let is_drawn = recorder.last.as_ref().unwrap().frame.index == frame;
                 assert!(!is_drawn || cost(&recorder) <= budget || recorder.kept.len() == 1);
             }
             recorder.finish()
         };
         let motion = record(&mut world, 8000, 1);
-        // The first contact, the most pairs and the last among those that are spaced evenly.
+        // The first contact, the most pairs and the last, among frames that are spaced evenly.
         let shown: Vec<u32> = motion.shown().collect();
         let even = (0..50).step_by(4).collect::<Vec<u32>>();
         assert!(even.iter().all(|frame| shown.contains(frame)));
         assert_eq!(shown.len(), even.len() + 3);
         assert!([13, 29, 49].iter().all(|frame| shown.contains(frame)));
-        // No mesh is there that no frame shows, and every frame shows both bodies.
+        // Every mesh is in some shown frame, and every frame shows both bodies.
         assert_eq!(motion.bodies.iter().filter(|it| it.id == still).count(), 1);
         for (place, body) in motion.bodies.iter().enumerate() {
             let is_shown = |frame: &Frame| frame.shapes[place].is_some();
@@ -821,7 +839,7 @@ mod tests {
             let shown = motion.bodies.iter().zip(&frame.shapes);
             let shown: Vec<_> = shown.filter(|(_, shape)| shape.is_some()).collect();
             let sizes: Vec<_> = shown.iter().map(|(it, _)| it.triangles.len()).collect();
-            let number = frame.place;
+            let number = frame.index;
             assert_eq!(sizes, [1, 1 + number - number % 25 / 24], "frame {number}");
             let start = |at: &BodyRecord| {
                 let before = motion.bodies.iter().take_while(|it| !std::ptr::eq(*it, at));
@@ -839,9 +857,10 @@ mod tests {
         }
         let mut report = Report::new("tear");
         report.add(Play::new("tear", "step"), motion);
-        let note = "The picture shows 16 of 50 steps, to keep the page small; the first contact, the step with the most pairs and the last are among them.";
+        let note = "The picture shows 16 of 50 steps, to keep the page small; the first contact, \
+            the step with the most pairs and the last are among them.";
         assert!(report.page().contains(note));
-        // Meshes of which no four would find room are counted, not drawn, and nothing else is said.
+        // Meshes of which no four would fit are counted and not drawn, without any other note.
         let motion = record(&mut world, 8000, 80);
         let shown: Vec<u32> = motion.shown().collect();
         assert!(
@@ -868,14 +887,14 @@ mod tests {
                 of_triangles: of_triangles.to_vec(),
             }),
         };
-        // Of the first there are not so many triangles; the second has one of no part.
+        // The first has fewer triangles than its label; the second has one without a part.
         let labels = vec![
             label("a", &["1", "2"], &[0, 1]),
             label("b", &["1", "2"], &[1, 0, 2]),
         ];
         let mut recorder = Recorder::new(labels);
         recorder.frame(0, &world, &[]);
-        // Parts are those of the first mesh.
+        // The label's parts belong to the first mesh.
         world.set_mesh(last, &[[2, 1, 0]], &flat).unwrap();
         recorder.frame(1, &world, &[]);
         let bodies = recorder.finish().bodies;
@@ -897,14 +916,14 @@ mod tests {
         let mut recorder = Recorder::new(Vec::new());
         recorder.frame(0, &world, &[[1, 0, 1, 2], [0, 1, 1, 1], [0, 1, 1, 0]]);
         let motion = recorder.finish();
-        assert!(
-            matches!(&motion.frames[0].hits, Hits::Pairs(pairs) if *pairs == [[1, 2], [1, 3], [2, 4]])
-        );
+        let expected = [[1, 2], [1, 3], [2, 4]];
+        assert!(matches!(&motion.frames[0].hits, Hits::Pairs(pairs) if *pairs == expected));
     }
 
     #[test]
     fn the_deepest_levels_of_a_deep_tree_are_not_shown() {
-        // Each triangle half as far from the origin as the one before: every cut at the centre takes one off.
+        // Each triangle is half as far from the origin as the one before: every cut at the centre
+        // takes one off.
         let corners = (0..40).map(|triangle| 0.5_f32.powi(triangle));
         let positions: Vec<[f32; 3]> = corners
             .flat_map(|x| [[x, 0.0, 0.0], [x, x / 8.0, 0.0], [x, 0.0, x / 8.0]])

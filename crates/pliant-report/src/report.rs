@@ -1,44 +1,44 @@
-//! What a page says.
+//! Content of a report.
 
 use crate::chart::Chart;
 use crate::frames::Motion;
 
-/// Everything on one page.
+/// A report: everything on one page.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
-    /// What was asked: the command.
+    /// The command that was run.
     pub asked: String,
-    /// What was found, in a sentence or two.
+    /// Summary of the results, in a sentence or two.
     pub found: String,
-    /// Names and values that hold for the whole page.
+    /// Facts about the whole page: names and values.
     pub facts: Vec<(String, String)>,
-    /// One after the other; a page with several lets its reader choose.
+    /// Plays, one after the other. On a page with several, the reader chooses.
     pub plays: Vec<Play>,
-    /// What plays show; several may show the same.
+    /// Motions that plays show; several plays may show the same.
     pub motions: Vec<Motion>,
 }
 
-/// One motion, or some methods on one motion.
+/// A motion with its facts and charts: of one method, or of several on the same motion.
 #[derive(Clone, Debug)]
 pub struct Play {
-    /// What it is called.
+    /// Name of the play.
     pub name: String,
-    /// What its steps are called: `step` or `frame`.
+    /// Name of its steps: `step` or `frame`.
     pub along: String,
-    /// How close triangles are that are pairs, if pairs are not those that intersect.
+    /// Distance within which triangles are pairs; `None` if pairs are intersections.
     pub within: Option<f64>,
-    /// Names and values.
+    /// Facts: names and values.
     pub facts: Vec<(String, String)>,
-    /// What must be said about it.
+    /// Notes for the reader.
     pub notes: Vec<String>,
-    /// Bodies in motion, if they are shown: a place in the report's motions.
+    /// Index of the motion in [`Report::motions`]; `None` if bodies are not shown.
     pub motion: Option<usize>,
-    /// What was measured.
+    /// Charts of measurements.
     pub charts: Vec<Chart>,
 }
 
 impl Report {
-    /// A page about a command.
+    /// Creates an empty report about a command.
     pub fn new(asked: &str) -> Self {
         Self {
             asked: asked.to_owned(),
@@ -55,7 +55,7 @@ impl Report {
 }
 
 impl Play {
-    /// Nothing in it yet.
+    /// Creates a play without content.
     pub fn new(name: &str, along: &str) -> Self {
         Self {
             name: name.to_owned(),

@@ -52,10 +52,10 @@ macro_rules! held {
         $crate::held::Held::held(&$this.$field)
     };
     (
-        $name:ident $(<$parameter:ident>)?:
+        $name:ident $(<$parameter:ident $(: $bound:ident)?>)?:
         $($field:tt $([$($nothing:tt)?])?),+ $(; |$it:ident| $more:expr)?
     ) => {
-        impl $(<$parameter>)? $crate::held::Held for $name $(<$parameter>)? {
+        impl $(<$parameter $(: $bound)?>)? $crate::held::Held for $name $(<$parameter>)? {
             fn held(&self) -> usize {
                 let this = self;
                 $(let $it = self;)?
@@ -65,6 +65,21 @@ macro_rules! held {
     };
 }
 pub(crate) use held;
+
+/// Implements `Default` for a type by that of every field, whatever its parameters are: a derive
+/// would ask it of these, too.
+macro_rules! empty {
+    ($name:ident<$parameter:ident $(: $bound:ident)?>: $($field:ident),+) => {
+        impl<$parameter $(: $bound)?> Default for $name<$parameter> {
+            fn default() -> Self {
+                Self {
+                    $($field: Default::default(),)+
+                }
+            }
+        }
+    };
+}
+pub(crate) use empty;
 
 impl Held for () {
     fn held(&self) -> usize {
@@ -83,6 +98,12 @@ impl<T: Held> Held for Option<T> {
 impl<T: Held> Held for Vec<T> {
     fn held(&self) -> usize {
         lists(self)
+    }
+}
+
+impl<A: Held, B: Held> Held for (A, B) {
+    fn held(&self) -> usize {
+        self.0.held() + self.1.held()
     }
 }
 

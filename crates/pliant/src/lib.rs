@@ -72,27 +72,22 @@
 //! sort          hits in order
 //! kernels       the inner loops, over boxes and points side by side
 //! threads       one or many, private or lent
-//! reference     slow and obviously right
+//! all_pairs     slow and obviously right: what `reference` goes through
 //! ```
 
+mod all_pairs;
 mod bodies;
 mod broad_phase;
-mod close_pairs;
 mod collide;
-mod contacts;
 mod edit;
 mod error;
 mod geometry;
 mod held;
-mod hits;
 mod ids;
-mod impacts;
 mod kernels;
 mod mesh;
 mod options;
-mod pair_impacts;
 mod queries;
-pub mod reference;
 mod selection;
 mod sort;
 mod statistics;
@@ -103,22 +98,30 @@ mod update;
 mod world;
 
 pub use bodies::{NodeBox, TreeShape};
-pub use close_pairs::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, ClosestFeatures};
-pub use contacts::{Contact, ContactKind};
 pub use edit::{Edit, Edited};
 pub use error::{Error, ErrorKind};
-pub use hits::{EdgeEdge, Pair, VertexTriangle};
 pub use ids::BodyId;
-pub use impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 #[doc(hidden)]
 pub use kernels::Instructions;
 pub use options::{BroadPhase, Degree, Options, Partition, Update};
-#[doc(hidden)]
-pub use pair_impacts::pair_impacts;
-pub use pair_impacts::{edge_edge_impacts, vertex_triangle_impacts};
+pub use queries::hits::*;
 pub use selection::Selection;
 pub use statistics::Statistics;
-pub use world::{FreeStep, Fused, InContact, Interruptible, Piece, Query, Scalar, World};
+#[doc(hidden)]
+pub use world::pair_impacts;
+pub use world::{
+    FreeStep, Fused, InContact, Interruptible, Piece, Query, Scalar, World, edge_edge_impacts,
+    vertex_triangle_impacts,
+};
+
+/// Slow and obviously right: every pair of triangles, or of elements, no tree, no box of several,
+/// no filter, exact signs.
+///
+/// Every configuration of [`World`] must give these pairs. O(m^2) or O(m_a m_b) exact decisions.
+pub mod reference {
+    pub use crate::all_pairs::{Moving, edges};
+    pub use crate::world::reference::*;
+}
 
 /// Exact decisions on single points and triangles, for who asks about shapes beside a world.
 pub mod exact {

@@ -1,8 +1,10 @@
 //! Replaying the same steps a second time on one thread allocates nothing in the library.
 
+mod common;
+
+use common::kinds::{Wanted, every_kind};
 use pliant::{BroadPhase, Degree, Options, Partition, Selection, World};
 use pliant_scenes::Scene;
-use std::ops::ControlFlow;
 
 fn replay(scene: &Scene, options: Options, steps: &[u32]) {
     // All shapes in advance: what is counted is the library's.
@@ -21,6 +23,12 @@ fn replay(scene: &Scene, options: Options, steps: &[u32]) {
     let ids: Vec<_> = (0..scene.body_count())
         .map(|body| world.add(scene.triangles(body), &shapes[0][body]).unwrap())
         .collect();
+    let kinds = every_kind::<f32>();
+    let questions = [
+        (Selection::World, Wanted::First),
+        (Selection::Within(ids[0]), Wanted::Visit),
+        (Selection::Everything, Wanted::All),
+    ];
     let mut pairs = 0;
     let mut play = || {
         for shapes in &shapes {
@@ -32,54 +40,19 @@ fn replay(scene: &Scene, options: Options, steps: &[u32]) {
                 .unwrap();
             world.intersections(Selection::World).prepare().unwrap();
             pairs += world.intersections(Selection::World).all().unwrap().len();
-            pairs += usize::from(
-                world
-                    .intersections(Selection::World)
-                    .first()
-                    .unwrap()
-                    .is_some(),
-            );
-            let within = world.intersections(Selection::Within(ids[0]));
-            pairs += within.all().unwrap().len();
-            let everything = world.intersections(Selection::Everything);
-            pairs += everything.all().unwrap().len();
             world.set_motion(ids[0], &shapes[0]).unwrap();
-            let everything = world.vertex_triangle_candidates(Selection::Everything, 0.01);
-            pairs += everything.all().unwrap().len();
-            let everything = world.edge_edge_candidates(Selection::Everything, 0.01);
-            pairs += everything.all().unwrap().len();
-            let shown = world.edge_edge_candidates(Selection::Within(ids[0]), 0.02);
-            let flow = shown.visit_some(|some| {
-                pairs += some.len();
-                ControlFlow::<()>::Continue(())
-            });
-            assert!(flow.unwrap().is_continue());
-            for of in [Selection::World, Selection::Within(ids[0])] {
-                let close = world.close_vertex_triangle_pairs(of, 0.02);
-                pairs += close.all().unwrap().len();
-                let close = world.close_edge_edge_pairs(of, 0.02);
-                pairs += close.all().unwrap().len();
-                let close = world.close_triangle_pairs(of, 0.01);
-                pairs += close.all().unwrap().len();
+            for kind in &kinds {
+                for &(of, wanted) in &questions {
+                    let shown = kind.show(&mut world, (of, 0.01), wanted, &mut |_| pairs += 1);
+                    shown.unwrap();
+                }
             }
-            let shown = world.close_edge_edge_pairs(Selection::Everything, 0.01);
-            let flow = shown.visit_some(|some| {
-                pairs += some.len();
-                ControlFlow::<()>::Continue(())
-            });
-            assert!(flow.unwrap().is_continue());
-            let first = world.close_vertex_triangle_pairs(Selection::World, 0.02);
-            pairs += usize::from(first.first().unwrap().is_some());
             let nearest = world.nearest_body(ids[0], 1.0).unwrap();
             pairs += usize::from(nearest.is_some());
             if let [a, .., b] = ids[..] {
                 let nearest = world.distance(a, b, f64::INFINITY).unwrap();
                 pairs += usize::from(nearest.is_some());
             }
-            let met = world.vertex_triangle_impacts(Selection::Everything);
-            pairs += met.all().unwrap().len();
-            let met = world.edge_edge_impacts(Selection::Everything);
-            pairs += met.all().unwrap().len();
             let first = world.first_impact(Selection::Everything, 1e-6).unwrap();
             pairs += usize::from(first.is_some());
             for gap in [0.0, 0.001] {

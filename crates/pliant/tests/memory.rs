@@ -7,6 +7,7 @@
 mod common;
 
 use common::TrianglesOf;
+use common::kinds::{Wanted, every_kind};
 use pliant::{BroadPhase, Options, Scalar, Selection, World};
 use pliant_scenes::{Asks, Scene};
 use std::num::NonZeroUsize;
@@ -251,6 +252,32 @@ fn a_world_says_how_much_it_holds() {
             world.remove(id).unwrap();
         }
         assert!(world.memory_usage() < before);
+    }
+}
+
+/// One thread: the pool's own memory is not counted.
+#[test]
+fn all_that_every_kind_keeps_is_said() {
+    let scene = Scene::new("cloth", Some(648), Scene::DEFAULT_SEED).unwrap();
+    let mut shapes = [Vec::new(), Vec::new()];
+    scene.positions(0, 35, &mut shapes[0]);
+    scene.positions(0, 36, &mut shapes[1]);
+    let [shape, end] = shapes;
+    for kind in every_kind::<f32>() {
+        let mut world = World::<f32>::with_options(Options::default());
+        let mut found = 0;
+        let used = allocation_counter::measure(|| {
+            let body = world.add(scene.triangles(0), &shape).unwrap();
+            world.set_motion(body, &end).unwrap();
+            for of in [Selection::Everything, Selection::Within(body)] {
+                for wanted in [Wanted::All, Wanted::Visit, Wanted::First] {
+                    let shown = kind.show(&mut world, (of, 0.02), wanted, &mut |_| found += 1);
+                    shown.unwrap();
+                }
+            }
+        });
+        assert!(found > 0, "{} is not idle", kind.name);
+        is_said_rightly(&world, used.bytes_current);
     }
 }
 

@@ -1,16 +1,28 @@
-"""Which triangles of deforming meshes intersect: exactly, never stale, and touching only what the contact region needs.
+"""Exact collision detection for deforming triangle meshes.
 
     world = pliant.World()
-    cloth = world.add(faces, vertices)                  # (m, 3) of any integer type, (n, 3) float32 or float64
+    cloth = world.add(faces, vertices)          # (m, 3) integers, (n, 3) float32 or float64
     for positions in frames:
-        world.set_positions(cloth, positions)           # checked and taken over
+        world.set_positions(cloth, positions)   # checked and copied
         hits = world.intersections(pliant.Selection.EVERYTHING).all()
 
-A hit is a row of four numbers, uint32: body, triangle, body, triangle; the rows are sorted.
+A hit is a row of four numbers, uint32: body, triangle, body, triangle. Rows are sorted.
 
-Two triangles intersect as closed sets: touching in one point counts, coplanar overlap counts, a degenerate triangle is the
-segment or point that it is. The decision is that of exact arithmetic on the coordinates given. Within a body, pairs that
-share a vertex are left out. Surfaces only: a body wholly inside another meets no triangle of it.
+  World                     bodies that deform, and every question about them
+  Selection                 which bodies a question is about
+  self_intersection_pairs   one mesh, in one call
+  intersection_pairs        two meshes, in one call
+  vertex_triangle_impacts, edge_edge_impacts    when single pairs of moving elements meet
+  check                     files, frame by frame
+  Error                     every refusal, with its kind and facts
+  reference                 intersections by brute force, to compare with
+
+Two triangles intersect as closed sets: touching in one point counts, and so does coplanar overlap.
+A degenerate triangle is the segment or point that it is. The decision is that of exact arithmetic
+on the coordinates given. Within a body, triangles that share a vertex are left out. Surfaces only:
+a body wholly inside another meets none of its triangles.
+
+help(pliant.World) lists all questions, with shapes, dtypes, errors and cost.
 """
 
 from . import reference
@@ -30,7 +42,36 @@ from ._pliant import (
     self_intersection_pairs,
     vertex_triangle_impacts,
 )
-from ._types import Body, BodyThere, ClosePair, ClosePairs, Contact, ContactKind, Contacts, EdgeEdge, Edited, Error, FirstImpact, Frame, FreeStep, Fused, Impact, Impacts, Interval, Kinds, Life, Mesh, OpenMesh, Pair, Piece, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
+from ._types import (
+    Body,
+    BodyThere,
+    ClosePair,
+    ClosePairs,
+    Contact,
+    ContactKind,
+    Contacts,
+    EdgeEdge,
+    Edited,
+    Error,
+    FirstImpact,
+    Frame,
+    FreeStep,
+    Fused,
+    Impact,
+    Impacts,
+    Interval,
+    Kinds,
+    Life,
+    Mesh,
+    OpenMesh,
+    Pair,
+    Piece,
+    Place,
+    Statistics,
+    TreeBoxes,
+    TreeShape,
+    VertexTriangle,
+)
 
 __all__ = [
     "Body",

@@ -1,13 +1,51 @@
-"""Types of the extension module; what each call does is in its documentation: help(pliant.World)."""
+"""Types of the extension module, each with the first line of its documentation.
+
+help(pliant.World) has all of it: shapes, dtypes, errors, cost.
+"""
 
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
-from typing import Any, ClassVar, Generic, Literal, Protocol, SupportsIndex, TypeAlias, TypedDict, TypeVar, final, overload
+from typing import (
+    Any,
+    ClassVar,
+    Generic,
+    Literal,
+    Protocol,
+    SupportsIndex,
+    TypeAlias,
+    TypedDict,
+    TypeVar,
+    final,
+    overload,
+)
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._types import Body, ClosePair, ClosePairs, Contact, ContactKind, Contacts, EdgeEdge, Edited, Frame, FreeStep, Fused, Impact, Impacts, Life, Mesh, OpenMesh, Pair, Piece, Statistics, TreeBoxes, TreeShape, VertexTriangle
+from ._types import (
+    Body,
+    ClosePair,
+    ClosePairs,
+    Contact,
+    ContactKind,
+    Contacts,
+    EdgeEdge,
+    Edited,
+    Frame,
+    FreeStep,
+    Fused,
+    Impact,
+    Impacts,
+    Life,
+    Mesh,
+    OpenMesh,
+    Pair,
+    Piece,
+    Statistics,
+    TreeBoxes,
+    TreeShape,
+    VertexTriangle,
+)
 
 __all__ = [
     "Check",
@@ -56,6 +94,8 @@ class _Options(TypedDict):
 
 @final
 class World:
+    """Deforming triangle meshes, and exact answers about what of them meets or is near."""
+
     def __new__(
         cls,
         *,
@@ -73,132 +113,243 @@ class World:
     def __reduce__(self) -> tuple[Callable[[], World], tuple[()], dict[str, Any]]: ...
     def __setstate__(self, written: dict[str, Any], /) -> None: ...
     @property
-    def dtype(self) -> np.dtype[np.float32] | np.dtype[np.float64] | None: ...
-    def options(self) -> _Options: ...
+    def dtype(self) -> np.dtype[np.float32] | np.dtype[np.float64] | None:
+        """The dtype of all positions, numpy.float32 or numpy.float64; None while there was no body."""
+    def options(self) -> _Options:
+        """The options of this world, a dict of the keyword arguments that make another like it."""
     @overload
-    def add(self, faces: _Array, positions: _Array) -> int: ...
+    def add(self, faces: _Array, positions: _Array) -> int:
+        """Adds a body, and returns its number, an int that this world will not use again."""
     @overload
     def add(self, faces: Mesh | OpenMesh, positions: None = None) -> int: ...
     @overload
-    def set_mesh(self, body: SupportsIndex, faces: _Array, positions: _Array) -> None: ...
+    def set_mesh(self, body: SupportsIndex, faces: _Array, positions: _Array) -> None:
+        """Gives a body another mesh and shape, of any size."""
     @overload
-    def set_mesh(self, body: SupportsIndex, faces: Mesh | OpenMesh, positions: None = None) -> None: ...
-    def edit(self, body: SupportsIndex) -> Edit: ...
-    def apply(self, edit: Edit) -> Edited: ...
-    def live_triangles(self, body: SupportsIndex) -> NDArray[np.bool_]: ...
-    def live_vertices(self, body: SupportsIndex) -> NDArray[np.bool_]: ...
-    def mesh_revision(self, body: SupportsIndex) -> int: ...
-    def components(self, body: SupportsIndex) -> NDArray[np.uint32]: ...
-    def split(self, body: SupportsIndex) -> list[Piece]: ...
-    def fuse(self, a: SupportsIndex, b: SupportsIndex) -> Fused: ...
-    def weld(self, body: SupportsIndex, tolerance: float) -> Edited: ...
-    def remove(self, body: SupportsIndex) -> None: ...
-    def bodies(self) -> list[int]: ...
-    def set_positions(self, body: SupportsIndex, positions: _Array) -> None: ...
-    def write_positions(self, body: SupportsIndex, write: Callable[[NDArray[Any]], object]) -> None: ...
-    def set_motion(self, body: SupportsIndex, end: _Array) -> None: ...
-    def finish_motion(self) -> None: ...
-    def advance_motion(self, t: float) -> None: ...
-    def end_positions(self, body: SupportsIndex) -> NDArray[Any] | None: ...
-    def set_vertex_groups(self, body: SupportsIndex, groups: _Array) -> None: ...
-    def vertex_groups(self, body: SupportsIndex) -> NDArray[np.uint32]: ...
-    def edges(self, body: SupportsIndex) -> NDArray[np.uint32]: ...
-    def tree_quality(self, body: SupportsIndex) -> float: ...
-    def rebuild(self, body: SupportsIndex) -> None: ...
-    def set_filter(self, body: SupportsIndex, membership: int, mask: int) -> None: ...
-    def filter(self, body: SupportsIndex) -> tuple[int, int]: ...
-    def ignored(self) -> list[tuple[int, int]]: ...
-    def loose_box(self, body: SupportsIndex) -> tuple[list[float], list[float]] | None: ...
-    def ignore(self, a: SupportsIndex, b: SupportsIndex) -> None: ...
-    def unignore(self, a: SupportsIndex, b: SupportsIndex) -> None: ...
-    def set_loose_box(self, body: SupportsIndex, corners: tuple[_Corner, _Corner] | None) -> None: ...
-    def triangle_count(self, body: SupportsIndex) -> int: ...
-    def vertex_count(self, body: SupportsIndex) -> int: ...
-    def tree_shape(self, body: SupportsIndex) -> TreeShape: ...
-    def tree_cut(self, body: SupportsIndex, level: int) -> NDArray[np.uint32]: ...
-    def triangles(self, body: SupportsIndex) -> NDArray[np.uint32]: ...
-    def positions(self, body: SupportsIndex) -> NDArray[Any]: ...
-    def tree_boxes(self, body: SupportsIndex, level: int) -> TreeBoxes: ...
-    def vertex_order(self, body: SupportsIndex) -> NDArray[np.uint32]: ...
-    def intersections(self, of: Selection = ...) -> Query[Pair]: ...
-    def contacts(self, of: Selection = ..., *, only: ContactKind | int | None = None) -> ContactQuery: ...
-    def vertex_triangle_candidates(self, of: Selection, radius: float) -> Query[VertexTriangle]: ...
-    def edge_edge_candidates(self, of: Selection, radius: float) -> Query[EdgeEdge]: ...
-    def close_vertex_triangle_pairs(self, of: Selection, distance: float) -> CloseQuery: ...
-    def close_edge_edge_pairs(self, of: Selection, distance: float) -> CloseQuery: ...
-    def close_triangle_pairs(self, of: Selection, distance: float) -> CloseQuery: ...
-    def distance(self, a: SupportsIndex, b: SupportsIndex, cut_off: float = ...) -> ClosePair | None: ...
-    def nearest_body(self, body: SupportsIndex, cut_off: float = ...) -> ClosePair | None: ...
-    def vertex_triangle_impacts(self, of: Selection, width: float = 1e-6) -> ImpactQuery: ...
-    def edge_edge_impacts(self, of: Selection, width: float = 1e-6) -> ImpactQuery: ...
-    def first_impact(self, of: Selection, width: float = 1e-6) -> Impact | None: ...
-    def free_step(self, of: Selection, min_distance: float = 0.0) -> FreeStep: ...
-    def collision_free_step(self, of: Selection, min_distance: float = 0.0) -> float: ...
-    def clearance(self, of: Selection, cut_off: float) -> dict[int, NDArray[np.float64]]: ...
-    def statistics(self) -> Statistics: ...
-    def memory_usage(self) -> int: ...
-    def validate(self) -> None: ...
+    def set_mesh(
+        self, body: SupportsIndex, faces: Mesh | OpenMesh, positions: None = None,
+    ) -> None: ...
+    def edit(self, body: SupportsIndex) -> Edit:
+        """Begins an edit of a body's mesh: an Edit without steps, which apply makes all at once."""
+    def apply(self, edit: Edit) -> Edited:
+        """Makes the changes of an edit, all or none, and returns an Edited: what changed, by number."""
+    def live_triangles(self, body: SupportsIndex) -> NDArray[np.bool_]:
+        """Which triangle numbers of a body are in use, (m,) bool: False where an edit left one empty."""
+    def live_vertices(self, body: SupportsIndex) -> NDArray[np.bool_]:
+        """Which vertex numbers of a body are in use, (n,) bool: False where an edit left one empty."""
+    def mesh_revision(self, body: SupportsIndex) -> int:
+        """Counter of a body's meshes and tree orders, an int that changes when either does."""
+    def components(self, body: SupportsIndex) -> NDArray[np.uint32]:
+        """Connected component of each triangle of a body, (m,) uint32."""
+    def split(self, body: SupportsIndex) -> list[Piece]:
+        """Makes each connected component of a body but the largest a body of its own."""
+    def fuse(self, a: SupportsIndex, b: SupportsIndex) -> Fused:
+        """Appends the triangles and vertices of body b to body a, and removes b."""
+    def weld(self, body: SupportsIndex, tolerance: float) -> Edited:
+        """Joins boundary edges of a body that coincide within a tolerance, and returns an Edited."""
+    def remove(self, body: SupportsIndex) -> None:
+        """Removes a body. Its number will not be used again."""
+    def bodies(self) -> list[int]:
+        """Numbers of all bodies, a list of int in the order in which they were added."""
+    def set_positions(self, body: SupportsIndex, positions: _Array) -> None:
+        """Gives a body a new shape: positions (n, 3), a row for each vertex, as numbered when added."""
+    def write_positions(self, body: SupportsIndex, write: Callable[[NDArray[Any]], object]) -> None:
+        """Gives a body a new shape that write(positions) fills into an array."""
+    def set_motion(self, body: SupportsIndex, end: _Array) -> None:
+        """Begins a motion: end (n, 3) is where the vertices of a body are at the end of the step."""
+    def finish_motion(self) -> None:
+        """Ends all motions: every body that has one takes the shape at its end, without a copy."""
+    def advance_motion(self, t: float) -> None:
+        """Ends all motions on the way: every body that has one takes its shape at time t, 0 to 1."""
+    def end_positions(self, body: SupportsIndex) -> NDArray[Any] | None:
+        """Shape at the end of a body's motion, a new array (n, 3) of the world's dtype, or None."""
+    def set_vertex_groups(self, body: SupportsIndex, groups: _Array) -> None:
+        """Gives every vertex of a body a group, (n,) of integers from 0 to 2^32 - 1."""
+    def vertex_groups(self, body: SupportsIndex) -> NDArray[np.uint32]:
+        """Group of every vertex of a body, a new array (n,) uint32."""
+    def edges(self, body: SupportsIndex) -> NDArray[np.uint32]:
+        """Edges of a body, a new array (k, 2) uint32: two vertices each, the smaller first."""
+    def tree_quality(self, body: SupportsIndex) -> float:
+        """Decay of a body's tree, a float: work of recent queries over that of a fresh tree."""
+    def rebuild(self, body: SupportsIndex) -> None:
+        """Builds the tree of a body anew on its present shape. Never needed for right answers."""
+    def set_filter(self, body: SupportsIndex, membership: int, mask: int) -> None:
+        """Sets the collision filter of a body, two 32-bit masks: what it is, and what it meets."""
+    def filter(self, body: SupportsIndex) -> tuple[int, int]:
+        """Collision filter of a body, a tuple (membership, mask): see set_filter."""
+    def ignored(self) -> list[tuple[int, int]]:
+        """Pairs of bodies that ignore keeps apart, a sorted list of (lower, higher) numbers."""
+    def loose_box(self, body: SupportsIndex) -> tuple[list[float], list[float]] | None:
+        """Loose box of a body, (lower, upper) corners as lists of three floats, or None."""
+    def ignore(self, a: SupportsIndex, b: SupportsIndex) -> None:
+        """Keeps two bodies apart in queries of the whole world; a body from itself if named twice."""
+    def unignore(self, a: SupportsIndex, b: SupportsIndex) -> None:
+        """Lets two bodies meet again that ignore keeps apart."""
+    def set_loose_box(self, body: SupportsIndex, corners: tuple[_Corner, _Corner] | None) -> None:
+        """Gives a body a fixed box that holds it in every pose to come; None takes it away."""
+    def triangle_count(self, body: SupportsIndex) -> int:
+        """Number of triangles of a body, numbers left empty by an edit included."""
+    def vertex_count(self, body: SupportsIndex) -> int:
+        """Number of vertices of a body, empty ones included: the rows that its positions must have."""
+    def tree_shape(self, body: SupportsIndex) -> TreeShape:
+        """Size of a body's tree, a TreeShape: depth, nodes, leaves. Movement does not change it."""
+    def tree_cut(self, body: SupportsIndex, level: int) -> NDArray[np.uint32]:
+        """Part of each triangle when a body's tree is cut at a level, (m,) uint32."""
+    def triangles(self, body: SupportsIndex) -> NDArray[np.uint32]:
+        """Faces of a body as added and edited, a new array (m, 3) uint32."""
+    def positions(self, body: SupportsIndex) -> NDArray[Any]:
+        """Present shape of a body, a new array (n, 3) of the world's dtype; NaN for empty vertices."""
+    def tree_boxes(self, body: SupportsIndex, level: int) -> TreeBoxes:
+        """Boxes of a level of a body's tree, a TreeBoxes: lower (k, 3), upper (k, 3), valid (k,)."""
+    def vertex_order(self, body: SupportsIndex) -> NDArray[np.uint32]:
+        """Order in which queries read the vertices of a body, (n,) uint32: vertex numbers as added."""
+    def intersections(self, of: Selection = ...) -> Query[Pair]:
+        """Asks which triangles intersect: a Query, whose all() is (k, 4) uint32, sorted."""
+    def contacts(
+        self, of: Selection = ..., *, only: ContactKind | int | None = None,
+    ) -> ContactQuery:
+        """Asks which triangles intersect, and how: a ContactQuery, whose all() is a Contacts."""
+    def vertex_triangle_candidates(self, of: Selection, radius: float) -> Query[VertexTriangle]:
+        """Asks which vertices are near which triangles: a Query, whose all() is (k, 4) uint32, sorted."""
+    def edge_edge_candidates(self, of: Selection, radius: float) -> Query[EdgeEdge]:
+        """Asks which edges are near which edges: a Query, whose all() is (k, 4) uint32, sorted."""
+    def close_vertex_triangle_pairs(self, of: Selection, distance: float) -> CloseQuery:
+        """Asks which vertices and triangles are at most distance apart: a CloseQuery."""
+    def close_edge_edge_pairs(self, of: Selection, distance: float) -> CloseQuery:
+        """Asks which edges are at most distance apart: a CloseQuery, whose all() is a ClosePairs."""
+    def close_triangle_pairs(self, of: Selection, distance: float) -> CloseQuery:
+        """Asks which triangles are at most distance apart: a CloseQuery, whose all() is a ClosePairs."""
+    def distance(
+        self, a: SupportsIndex, b: SupportsIndex, cut_off: float = ...,
+    ) -> ClosePair | None:
+        """Distance of the surfaces of two bodies: the ClosePair of their closest triangles, or None."""
+    def nearest_body(self, body: SupportsIndex, cut_off: float = ...) -> ClosePair | None:
+        """Distance of a body to the nearest other that may meet it, as filters say: a ClosePair."""
+    def vertex_triangle_impacts(self, of: Selection, width: float = 1e-6) -> ImpactQuery:
+        """Asks which vertices and triangles meet during the motion, and when: an ImpactQuery."""
+    def edge_edge_impacts(self, of: Selection, width: float = 1e-6) -> ImpactQuery:
+        """Asks which edges meet during the motion, and when: an ImpactQuery, whose all() is an"""
+    def first_impact(self, of: Selection, width: float = 1e-6) -> Impact | None:
+        """First contact of the motion, an Impact of either kind, or None if nothing meets."""
+    def free_step(self, of: Selection, min_distance: float = 0.0) -> FreeStep:
+        """How far everything may go without collision, a FreeStep: t, begins_in_contact, moves."""
+    def collision_free_step(self, of: Selection, min_distance: float = 0.0) -> float:
+        """Time t from 0 to 1 up to which everything stays further apart than min_distance."""
+    def clearance(self, of: Selection, cut_off: float) -> dict[int, NDArray[np.float64]]:
+        """How far each vertex may move before anything can touch: a dict of body to (n,) float64."""
+    def statistics(self) -> Statistics:
+        """Counters of the work of the last query, a Statistics, Query.prepare before it included."""
+    def memory_usage(self) -> int:
+        """Bytes of memory that this world holds, an int: bodies, trees, boxes, lists kept for queries."""
+    def validate(self) -> None:
+        """Checks every invariant of every tree. For tests and bug reports; it should never fail."""
 
 @final
 class CloseQuery:
-    def all(self, *, at_most: int | None = None) -> ClosePairs: ...
-    def first(self) -> ClosePair | None: ...
-    def visit_some(self, visit: Callable[[ClosePairs], object]) -> bool: ...
-    def prepare(self) -> None: ...
+    """A question which elements are close, which is answered when it says how much is wanted."""
+
+    def all(self, *, at_most: int | None = None) -> ClosePairs:
+        """All close pairs, a ClosePairs of arrays, sorted by their numbers."""
+    def first(self) -> ClosePair | None:
+        """Some close pair, a ClosePair, or None if there is none."""
+    def visit_some(self, visit: Callable[[ClosePairs], object]) -> bool:
+        """Calls visit(close) with some close pairs at a time, a ClosePairs, until it returns true."""
+    def prepare(self) -> None:
+        """Does early what the query would do first, and asks nothing: see Query.prepare."""
 
 @final
 class Edit:
-    def body(self) -> int: ...
-    def add_vertices(self, positions: _Array) -> NDArray[np.uint32]: ...
-    def place_vertex(self, vertex: SupportsIndex, position: _Array) -> None: ...
-    def split_vertex(self, vertex: SupportsIndex, triangles: _Array) -> int: ...
-    def merge_vertices(self, kept: SupportsIndex, gone: SupportsIndex) -> None: ...
-    def add_triangles(self, faces: _Array) -> NDArray[np.uint32]: ...
-    def set_triangle(self, triangle: SupportsIndex, corners: Sequence[SupportsIndex] | NDArray[np.integer[Any]]) -> None: ...
-    def remove_triangles(self, triangles: _Array) -> None: ...
+    """Changes of one body's mesh, which World.apply makes all at once or not at all."""
+
+    def body(self) -> int:
+        """Number of the body whose mesh it changes."""
+    def add_vertices(self, positions: _Array) -> NDArray[np.uint32]:
+        """Adds vertices at positions (k, 3), as World.add takes them; returns their numbers, (k,)"""
+    def place_vertex(self, vertex: SupportsIndex, position: _Array) -> None:
+        """Uses an empty vertex number again, at a position of three floats, (3,) float32 or float64."""
+    def split_vertex(self, vertex: SupportsIndex, triangles: _Array) -> int:
+        """Adds a vertex in the place of another, which the given triangles have instead from now on."""
+    def merge_vertices(self, kept: SupportsIndex, gone: SupportsIndex) -> None:
+        """Replaces the vertex gone by the vertex kept in all triangles. kept stays where it is."""
+    def add_triangles(self, faces: _Array) -> NDArray[np.uint32]:
+        """Adds triangles, faces (k, 3) of any integer type; returns their numbers, (k,) uint32."""
+    def set_triangle(
+        self, triangle: SupportsIndex, corners: Sequence[SupportsIndex] | NDArray[np.integer[Any]],
+    ) -> None:
+        """Gives a triangle other corners, three vertex numbers; uses an empty triangle number again."""
+    def remove_triangles(self, triangles: _Array) -> None:
+        """Removes triangles, (k,) of any integer type. Their numbers become empty."""
 
 @final
 class ContactQuery:
-    def all(self, *, at_most: int | None = None) -> Contacts: ...
-    def first(self) -> Contact | None: ...
-    def visit_some(self, visit: Callable[[Contacts], object]) -> bool: ...
-    def prepare(self) -> None: ...
+    """A question which triangles intersect and how, answered when it says how much is wanted."""
+
+    def all(self, *, at_most: int | None = None) -> Contacts:
+        """All contacts, a Contacts of arrays, sorted by their numbers."""
+    def first(self) -> Contact | None:
+        """Some contact, a Contact, or None if there is none."""
+    def visit_some(self, visit: Callable[[Contacts], object]) -> bool:
+        """Calls visit(contacts) with some contacts at a time, a Contacts, until it returns true."""
+    def prepare(self) -> None:
+        """Does early what the query would do first, and asks nothing: see Query.prepare."""
 
 @final
 class ImpactQuery:
-    def all(self, *, at_most: int | None = None) -> Impacts: ...
-    def first(self) -> Impact | None: ...
-    def visit_some(self, visit: Callable[[Impacts], object]) -> bool: ...
-    def prepare(self) -> None: ...
+    """A question which elements meet during the motion, answered when it says how much is wanted."""
+
+    def all(self, *, at_most: int | None = None) -> Impacts:
+        """All impacts, an Impacts of arrays, sorted by their numbers."""
+    def first(self) -> Impact | None:
+        """The impact with the least exact time, an Impact, or None if nothing meets."""
+    def visit_some(self, visit: Callable[[Impacts], object]) -> bool:
+        """Calls visit(impacts) with some impacts at a time, an Impacts, until it returns true."""
+    def prepare(self) -> None:
+        """Does early what the query would do first, and asks nothing: see Query.prepare."""
 
 @final
 class Selection:
+    """Which bodies a query asks about: a value that every kind of query takes."""
+
     WORLD: ClassVar[Selection]
     EVERYTHING: ClassVar[Selection]
     @staticmethod
-    def between(a: SupportsIndex, b: SupportsIndex) -> Selection: ...
+    def between(a: SupportsIndex, b: SupportsIndex) -> Selection:
+        """Two different bodies, whatever filters say. Body a is the first of every hit."""
     @staticmethod
-    def within(body: SupportsIndex) -> Selection: ...
+    def within(body: SupportsIndex) -> Selection:
+        """One body with itself, whatever filters say."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
 
 @final
 class Query(Generic[_Hit]):
-    def all(self, *, at_most: int | None = None) -> _Hits: ...
-    def first(self) -> _Hit | None: ...
-    def visit(self, visit: Callable[[_Hit], object]) -> bool: ...
-    def visit_some(self, visit: Callable[[_Hits], object]) -> bool: ...
-    def prepare(self) -> None: ...
+    """A question to a world, which is answered when it says how much is wanted."""
+
+    def all(self, *, at_most: int | None = None) -> _Hits:
+        """All hits, a new array (k, 4) uint32, sorted."""
+    def first(self) -> _Hit | None:
+        """Some hit, a Pair, VertexTriangle or EdgeEdge, or None if there is none."""
+    def visit(self, visit: Callable[[_Hit], object]) -> bool:
+        """Calls visit(hit) for every hit once, until it returns true. Returns whether it did."""
+    def visit_some(self, visit: Callable[[_Hits], object]) -> bool:
+        """Calls visit(rows) with some hits at a time, arrays (k, 4) uint32, until it returns true."""
+    def prepare(self) -> None:
+        """Does early what the query would do first, and asks nothing: for timing, or in spare time."""
 
 @final
 class Check:
+    """Check of files that is under way: an iterator of its frames, made by pliant.check."""
+
     @property
-    def bodies(self) -> tuple[Body, ...]: ...
+    def bodies(self) -> tuple[Body, ...]:
+        """Bodies of the check, a tuple of Body: one for each path, piece or group, in order."""
     @property
-    def frame_count(self) -> int: ...
+    def frame_count(self) -> int:
+        """Number of frames in the files, an int."""
     @property
-    def places(self) -> tuple[Life, ...]: ...
+    def places(self) -> tuple[Life, ...]:
+        """Places of the frames so far, a tuple of Life, most pairs in a frame first; at most a"""
     def __iter__(self) -> Check: ...
     def __next__(self) -> Frame: ...
 
@@ -221,29 +372,45 @@ def check(
     clip: str | None = None,
     fps: float = 30.0,
     threads: int = 1,
-) -> Check: ...
+) -> Check:
+    """Checks files frame by frame, as the program `pliant check` does; returns a Check, an iterator."""
+
 @overload
 def intersection_pairs(
     va: _Array, fa: _Array, vb: _Array, fb: _Array, /, *, threads: int = 1
+) -> _Pairs:
+    """Intersecting triangles of two meshes, (k, 2) uint32, sorted: triangle of a, triangle of b."""
+
+@overload
+def intersection_pairs(
+    mesh_a: Mesh | OpenMesh, mesh_b: Mesh | OpenMesh, /, *, threads: int = 1,
 ) -> _Pairs: ...
 @overload
-def intersection_pairs(mesh_a: Mesh | OpenMesh, mesh_b: Mesh | OpenMesh, /, *, threads: int = 1) -> _Pairs: ...
-@overload
-def self_intersection_pairs(vertices: _Array, faces: _Array, /, *, threads: int = 1) -> _Pairs: ...
+def self_intersection_pairs(vertices: _Array, faces: _Array, /, *, threads: int = 1) -> _Pairs:
+    """Self-intersections of a mesh, (k, 2) uint32, sorted: smaller triangle, larger triangle."""
+
 @overload
 def self_intersection_pairs(mesh: Mesh | OpenMesh, /, *, threads: int = 1) -> _Pairs: ...
 @overload
-def reference_intersection_pairs(va: _Array, fa: _Array, vb: _Array, fb: _Array, /) -> _Pairs: ...
+def reference_intersection_pairs(va: _Array, fa: _Array, vb: _Array, fb: _Array, /) -> _Pairs:
+    """Intersecting triangles of two meshes by brute force, (k, 2) uint32, sorted."""
+
 @overload
 def reference_intersection_pairs(mesh_a: Mesh | OpenMesh, mesh_b: Mesh | OpenMesh, /) -> _Pairs: ...
 @overload
-def reference_self_intersection_pairs(vertices: _Array, faces: _Array, /) -> _Pairs: ...
+def reference_self_intersection_pairs(vertices: _Array, faces: _Array, /) -> _Pairs:
+    """Self-intersections of a mesh by brute force, (k, 2) uint32, sorted."""
+
 @overload
 def reference_self_intersection_pairs(mesh: Mesh | OpenMesh, /) -> _Pairs: ...
 
 def vertex_triangle_impacts(
     start: _Array, end: _Array, width: float = 1e-6
-) -> tuple[NDArray[np.bool_], NDArray[np.float64], NDArray[np.float64]]: ...
+) -> tuple[NDArray[np.bool_], NDArray[np.float64], NDArray[np.float64]]:
+    """When vertices meet moving triangles, pair by pair, without a world: (hit, low, high)."""
+
 def edge_edge_impacts(
     start: _Array, end: _Array, width: float = 1e-6
-) -> tuple[NDArray[np.bool_], NDArray[np.float64], NDArray[np.float64]]: ...
+) -> tuple[NDArray[np.bool_], NDArray[np.float64], NDArray[np.float64]]:
+    """When edges meet moving edges, pair by pair, without a world: (hit, low, high)."""
+

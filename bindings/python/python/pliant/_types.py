@@ -1,4 +1,4 @@
-"""What is easier said in Python than in Rust: the exception, and answers whose fields have names."""
+"""The exception, and the answers whose fields have names: easier in Python than in Rust."""
 
 from __future__ import annotations
 
@@ -11,45 +11,84 @@ from numpy.typing import ArrayLike, NDArray
 
 
 class Error(ValueError):
-    """A call that was refused; the world is as it was before. Facts that do not apply are None.
+    """A refused call: its kind, and the facts as attributes. The world is as it was before.
 
-    kind is a name of the Rust library's ErrorKind (NoTriangles, TooLarge, TooManyBodies, VertexOutOfRange, WrongLength,
-    BadPosition, NeedsSubnormals, NotWritten, OutsideLooseBox, BadLooseBox, NoSuchBody, SameBody, TooManyHits, BadMargin, BadDistance, BadWidth, BadTime,
-    DifferentCounts, BadCorner, NoSuchTriangle, EmptyTriangle, NoSuchVertex, EmptyVertex, VertexInUse, NotACorner, OutdatedEdit), or:
+    Facts that do not apply are None. kind is one of these. Of a mesh and its positions:
 
-      BadArray     not an array of three columns, or not of a type that is taken
-      BadOption    an option has no such value
-      Precision    float64 positions in a float32 world
-      Busy         the world is answering another call
-      CannotRead   a file; file and place say which and where
-      Broken       a bug of pliant; please report it
+      NoTriangles       a body needs at least one triangle
+      TooLarge          more triangles, vertices or pairs than there may be: what, count, limit
+      TooManyBodies     all 2^32 numbers of bodies were used
+      VertexOutOfRange  a triangle names a vertex that is not there: triangle, vertex, vertices
+      WrongLength       not one position or group for each vertex: what, expected, found
+      BadPosition       a coordinate is NaN, infinite or above 3.4e38: vertex, position
+      NeedsSubnormals   a coordinate is so small that this thread would take it for zero: vertex
+      NotWritten        World.write_positions left a vertex unwritten: vertex
+      OutsideLooseBox   a vertex is outside the loose box of its body: vertex, position
+      BadLooseBox       corners not finite, or the lower above the upper
+      Precision         float64 positions in a float32 world
+      BadArray          an array of a wrong shape or dtype, or with masked numbers
 
-    Ctrl-C during a query is not one of these: it is the KeyboardInterrupt that it is everywhere.
+    Of a question:
+
+      NoSuchBody        no body has this number: it was removed, or is of another world
+      SameBody          one body was given as two
+      TooManyHits       a list would be longer than at_most: limit
+      BadMargin         radius is negative, infinite or NaN
+      BadDistance       a distance is negative, infinite or NaN
+      BadWidth          width is negative, infinite or NaN
+      BadTime           a time is not from 0 to 1
+      DifferentCounts   start and end have different numbers of pairs
+      BadCorner         a coordinate of a pair is NaN, infinite or above 3.4e38
+      Busy              the world is answering another call
+      BadOption         an option has no such value
+
+    Of an edit:
+
+      NoSuchTriangle    triangle, triangles
+      EmptyTriangle     the triangle was removed: triangle
+      NoSuchVertex      vertex, vertices
+      EmptyVertex       the vertex went with its last triangle: vertex
+      VertexInUse       a vertex that is placed is not empty: vertex
+      NotACorner        a vertex that is split is no corner of the triangle: triangle, vertex
+      OutdatedEdit      the mesh was changed since the edit began, or the edit is of another world
+
+    Of files, and of pliant itself:
+
+      CannotRead        a file: file, place, frame
+      Broken            a bug of pliant; please report it
+
+    Ctrl-C during a query is no Error but KeyboardInterrupt, as everywhere.
     """
 
-    #: What was wrong.
+    #: What was wrong, one of the names above.
     kind: str | None
-    #: The body the call was about; None for one that was to be added.
+    #: The body that the call was about; None for a new one.
     body: int | None = None
-    #: The triangle, and the vertex, counted from 0.
+    #: The triangle, counted from 0.
     triangle: int | None = None
+    #: The vertex, counted from 0.
     vertex: int | None = None
-    #: How many vertices, and triangles, the body has.
+    #: Number of vertices of the body.
     vertices: int | None = None
+    #: Number of triangles of the body.
     triangles: int | None = None
-    #: Where the vertex is.
+    #: Position of the vertex.
     position: tuple[float, float, float] | None = None
-    #: Vertices of the body, and positions or groups given.
+    #: Number of vertices of the body.
     expected: int | None = None
+    #: Number of positions or groups given.
     found: int | None = None
-    #: "triangles", "vertices" or "pairs", how many there were, and how many there may be; of hits, how many were allowed. Of a wrong
-    #: length, "positions" or "groups".
+    #: "triangles", "vertices" or "pairs"; of a wrong length, "positions" or "groups".
     what: str | None = None
+    #: Number of triangles, vertices or pairs.
     count: int | None = None
+    #: Largest number allowed, of hits too.
     limit: int | None = None
-    #: The file, where in it, and which frame of the sequence.
+    #: The file.
     file: str | None = None
+    #: Where in the file.
     place: str | None = None
+    #: Which frame of the sequence, counted from 0.
     frame: int | None = None
 
     def __init__(self, message: str = "", kind: str | None = None, **facts: Any) -> None:
@@ -60,10 +99,9 @@ class Error(ValueError):
 
 
 class Pair(NamedTuple):
-    """A hit: two triangles that intersect, of two bodies or of one.
+    """Two triangles that intersect, of two bodies or of one: a row of Query.all.
 
-    The smaller (body, triangle) is first; but of two bodies that the selection names, the one that is named first. Rows of
-    Query.all have the same four numbers.
+    The smaller (body, triangle) is first. With Selection.between(a, b) body a is.
     """
 
     body_a: int
@@ -73,7 +111,10 @@ class Pair(NamedTuple):
 
 
 class VertexTriangle(NamedTuple):
-    """A vertex near a triangle that it is no corner of, of two bodies or of one. Rows of Query.all have the same four numbers."""
+    """A vertex near a triangle, of two bodies or of one: a row of Query.all.
+
+    The vertex is no corner of the triangle.
+    """
 
     vertex_body: int
     vertex: int
@@ -82,10 +123,10 @@ class VertexTriangle(NamedTuple):
 
 
 class EdgeEdge(NamedTuple):
-    """Two edges near each other that have no end in common, of two bodies or of one; World.edges numbers them.
+    """Two edges near each other, of two bodies or of one: a row of Query.all.
 
-    The smaller (body, edge) is first; but of two bodies that the selection names, the one that is named first. Rows of
-    Query.all have the same four numbers.
+    World.edges numbers them. They have no end in common. The smaller (body, edge) is first. With
+    Selection.between(a, b) body a is.
     """
 
     body_a: int
@@ -95,40 +136,47 @@ class EdgeEdge(NamedTuple):
 
 
 class ClosePairs(NamedTuple):
-    """Elements that are close, a row each.
+    """Close elements, a row each: numbers, distance, direction and closest points.
 
-    The distance is off by at most 2**-30 of itself and 2**-1074, the smallest number; it is 0 exactly if they touch.
+    The distance is off by at most 2^-30 of itself and 2^-1074, the smallest number. It is 0
+    exactly if the two touch.
     """
 
     pairs: NDArray[np.uint32]
-    """(k, 4): body, vertex, body, triangle; or body, edge, body, edge; or body, triangle, body, triangle."""
+    """(k, 4): body, vertex, body, triangle. Of edges body, edge, body, edge. Of triangles body,
+    triangle, body, triangle."""
     distance: NDArray[np.float64]
-    """(k,)"""
+    """(k,), in the unit of the positions."""
     direction: NDArray[np.float64]
-    """(k, 3): from the second element to the first, of length 1; zeros where they touch."""
+    """(k, 3), of length 1, from the second element to the first. Zeros where they touch."""
     barycentric: NDArray[np.float64]
-    """(k, 3): the point of the triangle, what each corner counts. Of edges (k, 4): what the ends of the first count, then
-    of the second. Of two triangles (k, 6): what the corners of the first count, then of the second."""
+    """Weights of the corners in the closest points. (k, 3) for the corners of the triangle. (k, 4)
+    for both ends of the first edge, then of the second. (k, 6) for the corners of the first
+    triangle, then of the second."""
 
 
 class ClosePair(NamedTuple):
-    """Two elements that are close, as a row of ClosePairs has them; direction is None if they touch."""
+    """Two close elements, as a row of ClosePairs has them."""
 
     pair: VertexTriangle | EdgeEdge | Pair
+    """Which they are."""
     distance: float
+    """How far apart they are, in the unit of the positions."""
     direction: tuple[float, float, float] | None
+    """From the second element to the first, of length 1; None if they touch."""
     barycentric: tuple[float, ...]
+    """Weights of the corners in the closest points, as in ClosePairs."""
 
 
 class ContactKind(IntEnum):
-    """How two triangles that intersect do so, decided exactly."""
+    """How two triangles intersect, decided exactly: touching, overlapping or crossing."""
 
     TOUCHING = 0
     """Neither of the others: a move of their corners, however small, could part them."""
     OVERLAPPING = 1
     """They lie in one plane, and have an area in common."""
     CROSSING = 2
-    """They go through each other: after every small enough move of their corners they still intersect."""
+    """They go through each other: after every small enough move they still intersect."""
 
 
 class Contacts(NamedTuple):
@@ -137,18 +185,18 @@ class Contacts(NamedTuple):
     pairs: NDArray[np.uint32]
     """(k, 4): body, triangle, body, triangle."""
     kind: NDArray[np.uint8]
-    """(k,): of each a ContactKind."""
+    """(k,): a ContactKind each."""
 
 
 class Contact(NamedTuple):
-    """Two triangles that intersect, as a row of Contacts has them."""
+    """Two triangles that intersect, and how: a row of Contacts."""
 
     pair: Pair
     kind: ContactKind
 
 
 class Edited(NamedTuple):
-    """What an edit has changed: numbers, each list ascending."""
+    """Changes that an edit has made, by number: five arrays (k,), each ascending."""
 
     new_triangles: NDArray[np.uint32]
     """Triangles that were empty, or not there."""
@@ -163,41 +211,42 @@ class Edited(NamedTuple):
 
 
 class Piece(NamedTuple):
-    """A body that was a component of another."""
+    """A new body that World.split made of a component of another."""
 
     body: int
-    """The new body."""
+    """Number of the new body."""
     triangles: NDArray[np.uint32]
-    """For each of its triangles the number that it had; ascending."""
+    """(m,): the old number of each of its triangles, ascending."""
     vertices: NDArray[np.uint32]
-    """For each of its vertices the number that it had; ascending."""
+    """(n,): the old number of each of its vertices, ascending."""
 
 
 class Fused(NamedTuple):
-    """The numbers of what came from another body; 0xFFFFFFFF for numbers that were empty."""
+    """New numbers in the body that World.fuse kept; 0xFFFFFFFF for numbers that were empty."""
 
     triangles: NDArray[np.uint32]
-    """For each triangle of the body that is no more the number that it has now."""
+    """(m,): the new number of each triangle of the removed body."""
     vertices: NDArray[np.uint32]
-    """The same of its vertices."""
+    """(n,): the new number of each vertex of the removed body."""
 
 
 class Impacts(NamedTuple):
-    """Elements that meet on their way, a row each.
+    """Elements that meet during the motion, a row each, and when.
 
-    They are apart from time 0 to low, both included, and meet after that and not after high; both are 0 if they meet at the start.
+    Time is 0 at the start of the motion and 1 at its end. A pair is apart from time 0 to low, both
+    included. It meets after low and by high. Both are 0 if it meets at the start.
     """
 
     pairs: NDArray[np.uint32]
-    """(k, 4): body, vertex, body, triangle; or body, edge, body, edge."""
+    """(k, 4): body, vertex, body, triangle. Of edges body, edge, body, edge."""
     low: NDArray[np.float64]
-    """(k,)"""
+    """(k,): apart up to here."""
     high: NDArray[np.float64]
-    """(k,)"""
+    """(k,): have met by here; high - low is at most the width asked for."""
 
 
 class Impact(NamedTuple):
-    """Two elements that meet on their way, as a row of Impacts has them."""
+    """Two elements that meet during the motion, and when: a row of Impacts."""
 
     pair: VertexTriangle | EdgeEdge
     low: float
@@ -205,48 +254,48 @@ class Impact(NamedTuple):
 
 
 class FreeStep(NamedTuple):
-    """How far everything may go, and how that begins: see World.free_step."""
+    """How far everything may go without collision, and how that begins: see World.free_step."""
 
     t: float
     """A time from 0 to 1, to call World.advance_motion with."""
     begins_in_contact: Pair | VertexTriangle | EdgeEdge | None
-    """The first that are in contact at the start already: triangles that intersect; else elements at most min_distance apart. None if
-    everything begins apart."""
+    """The first pair in contact at the start: triangles that intersect, else elements at most
+    min_distance apart. None if everything begins apart."""
     moves: bool
-    """Whether a body that was asked about has a motion, be it nowhere. If none has, t is 1."""
+    """Whether a selected body has a motion, be it to nowhere. If none has, t is 1."""
 
 
 class TreeShape(NamedTuple):
-    """The tree of a body in numbers; the structure only, which no movement changes."""
+    """Size of a body's tree. Movement does not change it."""
 
     depth: int
-    """The level of the deepest leaf, where the root is level 0."""
+    """Level of the deepest leaf; the root is level 0."""
     nodes: int
-    """All nodes, leaves and root included: the boxes of a complete refit."""
+    """Number of nodes, leaves and root included: the boxes of a complete refit."""
     leaves: int
-    """Nodes that hold triangles."""
+    """Number of nodes that hold triangles."""
 
 
 class TreeBoxes(NamedTuple):
-    """The boxes of a level of a tree, one a part of tree_cut."""
+    """Boxes of a level of a tree, a row for each part of World.tree_cut."""
 
     lower: NDArray[Any]
-    """(k, 3): the smallest coordinates of the triangles below each node."""
+    """(k, 3), of the world's dtype: the smallest coordinates of the triangles below each node."""
     upper: NDArray[Any]
-    """(k, 3): the largest."""
+    """(k, 3), of the world's dtype: the largest."""
     valid: NDArray[np.bool_]
-    """(k,): whether the tree holds this box for the shape that the body has now; else it is stale."""
+    """(k,): whether the tree holds this box for the present shape; else it is stale."""
 
 
 class Statistics(NamedTuple):
-    """The work of one query, with what Query.prepare did before it."""
+    """Counters of the work of one query, Query.prepare before it included."""
 
     body_pairs: int
     """Pairs of bodies whose trees were traversed."""
     boxes_bottom_up: int
-    """Boxes made ahead of a traversal."""
+    """Boxes refitted ahead of a traversal."""
     boxes_top_down: int
-    """Boxes made when a traversal reached them."""
+    """Boxes refitted when a traversal reached them."""
     triangle_boxes: int
     """Boxes of single triangles in leaves of several."""
     node_pairs: int
@@ -254,7 +303,7 @@ class Statistics(NamedTuple):
     candidate_pairs: int
     """Pairs of triangles with overlapping boxes, which were therefore decided."""
     scalar_decisions: int
-    """Of moving elements, those that were not known to be apart eight at a time, and were decided one by one."""
+    """Pairs of moving elements that filters eight at a time left open, decided one by one."""
     exact_decisions: int
     """Candidates that needed exact arithmetic."""
     pairs: int
@@ -263,26 +312,28 @@ class Statistics(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """A body that was read from files, or a connected piece or a group of one."""
+    """A body read from files, or a connected piece or group of one: see Check.bodies."""
 
     name: str
-    """The path as given; of a glTF file of several bodies, # and the name of the body; where it is split, # and the number of the
-    piece, or the name of the group."""
+    """The path as given. # and a name follow for a body of several in a glTF file, or a group. #
+    and a number follow for a piece."""
     vertices: int
+    """Number of its vertices."""
     triangles: int
+    """Number of its triangles."""
     faces: NDArray[np.uint32] | None
-    """For each triangle of the file the polygon it is part of; None where every polygon is a triangle."""
+    """(m,): the polygon that each triangle of the file is part of. None if all are triangles."""
     welded: int
-    """Vertices welded away in its file."""
+    """Number of vertices welded away in its file."""
     source: int
-    """Which path it is of, counted from 0; each body of a glTF file counts."""
+    """Its path, counted from 0; each body of a glTF file counts."""
     first_triangle: int
     """Its lowest triangle, as numbered in the file."""
 
 
 @dataclass(frozen=True)
 class BodyThere:
-    """The triangles of a body in a place."""
+    """The triangles of a body in a Place."""
 
     body: int
     """Its number."""
@@ -294,77 +345,81 @@ class BodyThere:
 
 @dataclass(frozen=True)
 class Place:
-    """Pairs that hang together through triangles that are equal or share a vertex."""
+    """A place of a frame: pairs connected by triangles that are equal or share a vertex."""
 
     number: int
-    """The same from frame to frame while the place lives, counted from 0."""
+    """Its number, counted from 0, the same in every frame while the place lives."""
     count: int
-    """How many pairs."""
+    """Number of pairs."""
     first_pair: tuple[int, int, int, int]
-    """The smallest of them: body, triangle, body, triangle."""
+    """The smallest pair: body, triangle, body, triangle."""
     bodies: tuple[BodyThere, ...]
-    """Whose triangles intersect there."""
+    """Bodies whose triangles intersect there."""
     lower: tuple[float, float, float]
     """The smallest coordinates of these triangles."""
     upper: tuple[float, float, float]
-    """The largest."""
+    """The largest coordinates of these triangles."""
 
 
 @dataclass(frozen=True)
 class Life:
-    """A place, from its first frame to its last."""
+    """A place, from its first frame to its last: see Check.places."""
 
     first_frame: int
+    """Its first frame."""
     last_frame: int
-    """The last so far."""
+    """Its last frame so far."""
     worst_frame: int
     """The first frame in which it has the most pairs."""
     worst: Place
-    """What it is there."""
+    """The place in that frame."""
 
 
 @dataclass(frozen=True)
 class FirstImpact:
-    """What meets first on the way from a frame to the next."""
+    """The first contact on the way from a frame to the next: see Interval.first."""
 
     time: float
-    """When they have met, from 0, in the frame, to 1, in the next; at most a millionth late."""
+    """When they have met, from 0, in the frame, to 1, in the next; at most 1e-6 late."""
     kind: str
     """"vertex_triangle" or "edge_edge"."""
     pair: tuple[int, ...]
-    """Which they are, as a row of Interval.vertex_triangle or Interval.edge_edge."""
+    """Which they are: a row of Interval.vertex_triangle or Interval.edge_edge."""
 
 
 @dataclass(frozen=True, eq=False)
 class Interval:
-    """What meets on the way from a frame to the next that is checked: what is apart in the frame and meets before the next, or in it."""
+    """Contacts on the way from a frame to the next that is checked: see Frame.interval.
+
+    Counted are elements that are apart in the frame and meet before the next, or in it.
+    """
 
     frame: int
     """The frame."""
     until: int
-    """The next that is checked."""
+    """The next frame that is checked."""
     changed: tuple[int, ...]
-    """The bodies that have another mesh there; where there are any nothing was looked for."""
+    """Bodies that have another mesh there. If there are any, nothing was looked for."""
     count: int
-    """How many pairs of elements; at most one if only the first was asked for."""
+    """Number of pairs of elements; at most one with first=True."""
     at_start: int
-    """How many others meet in the frame already."""
+    """Number of other pairs that meet in the frame already."""
     first: FirstImpact | None
-    """The one of them that meets first."""
+    """The pair that meets first."""
     vertex_triangle: NDArray[np.uint32]
-    """(k, 4): body, vertex, body, triangle, sorted; vertices are those of the file."""
+    """(k, 4): body, vertex, body, triangle, sorted; numbered as in the file."""
     vertex_triangle_times: NDArray[np.float64]
-    """(k, 2): each is apart up to the first time and has met at the second, at most a millionth later."""
+    """(k, 2): apart up to the first time, and met by the second, at most 1e-6 later."""
     edge_edge: NDArray[np.uint32]
-    """(k, 6): body and two vertices, twice, the smaller first in an edge and of the two; sorted."""
+    """(k, 6), sorted: body and two vertices, twice, the smaller first in an edge and of the two."""
     edge_edge_times: NDArray[np.float64]
-    """(k, 2)."""
+    """(k, 2): as vertex_triangle_times."""
     complete: bool
-    """Whether these are all; not if only the first was asked for."""
+    """Whether these are all pairs; not with first=True."""
 
 
 class Kinds(NamedTuple):
-    """How many pairs of a frame intersect how: see ContactKind."""
+    """Numbers of pairs of a frame by kind: see ContactKind."""
 
     crossing: int
     overlapping: int
@@ -373,53 +428,65 @@ class Kinds(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """A frame that was checked."""
+    """A frame that pliant.check has checked."""
 
     frame: int
     """Its number, counted from 0."""
     count: int
-    """How many pairs."""
+    """Number of pairs."""
     pairs: NDArray[np.uint32]
-    """(count, 4): body, triangle, body, triangle, sorted; with first the one pair, and with within too the nearest."""
+    """(count, 4), sorted: body, triangle, body, triangle. With first=True one pair; with within=
+    too, the nearest."""
     kinds: Kinds | None
-    """How many pairs of each kind; None if only the first was asked for, or within."""
+    """Number of pairs of each kind; None with first=True or within=."""
     distance: float | None
-    """How far apart the nearest of the pairs of within is; None where there is none, or within was not asked for."""
+    """Distance of the nearest pair, in the unit of the files; None without within= or pairs."""
     complete: bool
-    """Whether these are all pairs; not if only the first was asked for."""
+    """Whether these are all pairs; not with first=True."""
     left_out: int | None
-    """How many pairs were left out because the baseline has them; None where there is no baseline, and where the search stopped at
-    the first new pair."""
+    """Pairs left out because the baseline has them. None without baseline=, or if the search
+    stopped at the first new pair."""
     only_touching: int | None
-    """How many pairs were left out because in their places surfaces only touch; None if crossing was not asked for."""
+    """Pairs left out because surfaces only touch in their places; None without crossing=True."""
     degenerate: int
-    """How many pairs have a triangle without area: of these, or with skip_degenerate of those that were left out for it."""
+    """Pairs with a triangle without area: found, or left out with skip_degenerate=True."""
     changed: dict[int, Body]
-    """The bodies that have another mesh than in the frame before, or, of the first, than said in bodies: what is known of them now. Pairs
-    number triangles as in the mesh of their frame."""
+    """Bodies with another mesh than in the frame before; in the first frame, than in Check.bodies.
+    Pairs number triangles as in the mesh of their frame."""
     places: tuple[Place, ...] | None
-    """What the pairs join into, most pairs first; None where places were not asked for, and with first."""
+    """Places that the pairs join into, most pairs first; None without places=, and with first."""
     interval: Interval | None = None
-    """What meets on the way to the next frame; None of the last, and where that was not asked."""
+    """Contacts on the way to the next frame; None without swept=, and in the last frame."""
 
 
 class Mesh(Protocol):
-    """A mesh as trimesh has it."""
+    """A mesh object as trimesh has it."""
 
     @property
-    def vertices(self) -> ArrayLike: ...
+    def vertices(self) -> ArrayLike:
+        """Positions, (n, 3) float32 or float64."""
+
     @property
-    def faces(self) -> ArrayLike: ...
+    def faces(self) -> ArrayLike:
+        """Corners of the triangles, (m, 3) of any integer type."""
 
 
 class OpenMesh(Protocol):
-    """A mesh as Open3D has it."""
+    """A mesh object as Open3D has it."""
 
     @property
-    def vertices(self) -> Any: ...
+    def vertices(self) -> Any:
+        """Positions, (n, 3) float32 or float64."""
+
     @property
-    def triangles(self) -> Any: ...
+    def triangles(self) -> Any:
+        """Corners of the triangles, (m, 3) of any integer type."""
 
 
-for _public in (Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Contact, ContactKind, Contacts, Edited, Fused, Piece, Impact, Impacts, FreeStep, TreeBoxes, TreeShape, Statistics, Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Frame, Mesh, OpenMesh):
+_PUBLIC = (
+    *(Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Contact, ContactKind, Contacts),
+    *(Edited, Fused, Piece, Impact, Impacts, FreeStep, TreeBoxes, TreeShape, Statistics),
+    *(Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Frame, Mesh, OpenMesh),
+)
+for _public in _PUBLIC:
     _public.__module__ = "pliant"

@@ -1,7 +1,8 @@
-"""USD stages, evaluated by usd-core: the meshes that are seen, in world space, at the times at which something about them is written.
+"""USD stages, evaluated by usd-core: the visible meshes, in world space, at their time samples.
 
-Imported only when a USD file is checked. What usd-core evaluates is taken as it is: references, payloads, variants as they are
-selected, instances, transforms, and points between two of their samples. Skinning and subdivision are not evaluated, and said to be.
+Imported only when a USD file is checked. usd-core evaluates references, payloads, selected
+variants, instances, transforms, and points between two samples. Skinning and subdivision are not
+evaluated; a warning says so.
 """
 
 from __future__ import annotations
@@ -15,8 +16,12 @@ from numpy.typing import NDArray
 
 from ._types import Error
 
-#: Deep enough to name the line that called pliant.check, below which Rust has no frames of Python's.
+#: Stack level of the line that called pliant.check: Rust has no frames of Python.
 _CALLER = 3
+
+
+#: What to do about a mesh that USD changes and pliant does not read.
+_INSTEAD = "export it as a file a frame, such as frame_*.obj"
 
 
 def _refused(file: str, what: str) -> Error:
@@ -24,7 +29,7 @@ def _refused(file: str, what: str) -> Error:
 
 
 class Mesh:
-    """A mesh of a stage."""
+    """A mesh of a stage, evaluated frame by frame."""
 
     def __init__(self, name: str, file: str, prim: Any, geom: Any, codes: list[Any]) -> None:
         self.name = name
@@ -46,42 +51,55 @@ class Mesh:
         values = (attribute.Get(code) for attribute in attributes)
         counts, corners = (np.array([] if value is None else value, np.int64) for value in values)
         if (counts < 0).any() or (corners < 0).any():
-            raise _refused(self._file, f"prim {self._mesh.GetPath()}: a number of its faces is negative")
+            what = "a number of its faces is negative; mend it, or export it again"
+            raise _refused(self._file, f"prim {self._mesh.GetPath()}: {what}")
         return counts.astype(np.uint32), corners.astype(np.uint32)
 
     def positions(self, frame: int) -> NDArray[np.float64]:
-        """Where its points are in the world."""
+        """Positions of its points in world space, (n, 3) float64."""
         code = self._codes[frame]
         points = self._points(code)
-        where = f"prim {self._mesh.GetPath()}, time code {code.GetValue():g}" if not code.IsDefault() else f"prim {self._mesh.GetPath()}"
+        where = f"prim {self._mesh.GetPath()}"
+        if not code.IsDefault():
+            where += f", time code {code.GetValue():g}"
         if len(points) != self._vertices:
-            what = f"{len(points)} points, {self._vertices} at first; meshes whose number of points changes are not read"
+            what = (
+                f"{len(points)} points, {self._vertices} at first; meshes whose number of points"
+                f" changes are not read: {_INSTEAD}"
+            )
             raise _refused(self._file, f"{where}: {what}")
         attributes = (self._mesh.GetFaceVertexCountsAttr(), self._mesh.GetFaceVertexIndicesAttr())
         if frame > 0 and any(attribute.ValueMightBeTimeVarying() for attribute in attributes):
             counts, corners = self._faces(code)
             if not (np.array_equal(counts, self.counts) and np.array_equal(corners, self.corners)):
-                raise _refused(self._file, f"{where}: other faces than at first; meshes whose faces change are not read")
-        matrix = np.array(self._geom.XformCache(code).GetLocalToWorldTransform(self._mesh.GetPrim()))
+                what = "other faces than at first; meshes whose faces change are not read"
+                what = f"{what}: {_INSTEAD}"
+                raise _refused(self._file, f"{where}: {what}")
+        prim = self._mesh.GetPrim()
+        matrix = np.array(self._geom.XformCache(code).GetLocalToWorldTransform(prim))
         # Rows, as USD has them; one product after the other, so that every machine rounds alike.
-        moved: NDArray[np.float64] = matrix[3, :3] + points[:, :1] * matrix[0, :3] + points[:, 1:2] * matrix[1, :3] + points[:, 2:] * matrix[2, :3]
+        moved: NDArray[np.float64] = matrix[3, :3] + points[:, :1] * matrix[0, :3]
+        moved = moved + points[:, 1:2] * matrix[1, :3]
+        moved = moved + points[:, 2:] * matrix[2, :3]
         return moved
 
 
 def _stage(file: str, usd: Any, tf: Any) -> Any:
     if not Path(file).is_file():
-        raise _refused(file, "there is no such file; a pattern cannot be given, the frames of USD are in one stage")
+        what = "there is no such file; frames of USD are in one stage, so no pattern can be given"
+        raise _refused(file, what)
     try:
         stage = usd.Stage.Open(file)
     except tf.ErrorException as error:
-        raise _refused(file, "cannot be read as USD: " + " ".join(str(error).split())[:300]) from None
+        why = " ".join(str(error).split())[:300]
+        raise _refused(file, f"cannot be read as USD: {why}; mend it, or export it again") from None
     if stage is None:
-        raise _refused(file, "cannot be read as USD")
+        raise _refused(file, "cannot be read as USD; mend it, or export it again")
     return stage
 
 
 def _ancestors(prim: Any) -> list[Any]:
-    """The prim and those above it."""
+    """The prim and its ancestors, from below."""
     chain = []
     while prim and not prim.IsPseudoRoot():
         chain.append(prim)
@@ -96,33 +114,46 @@ def _is_skinned(prim: Any, skel: Any) -> bool:
 
 
 def _say(argument: str, what: str, prims: list[Any]) -> None:
-    """Something that is no error, once for all prims that it is about."""
+    """Gives one warning for all prims that it is about."""
     if prims:
-        some = f"{len(prims)} {'prim' if len(prims) == 1 else 'prims'} (the first: {prims[0].GetPath()})"
+        noun = "prim" if len(prims) == 1 else "prims"
+        some = f"{len(prims)} {noun} (the first: {prims[0].GetPath()})"
         warnings.warn(f"{argument}: {what.format(some)}", UserWarning, stacklevel=_CALLER)
 
 
 def opened(argument: str) -> tuple[str, list[Mesh]]:
-    """The file that an argument names, and its meshes that are seen; or those of them at or below a prim of it, behind a #."""
-    file, _, part = argument.rpartition("#") if "#" in argument and not Path(argument).exists() else (argument, "", "")
+    """The file that an argument names, and its visible meshes, at or below the prim behind a #."""
+    file, part = argument, ""
+    if "#" in argument and not Path(argument).exists():
+        file, _, part = argument.rpartition("#")
     try:
-        from pxr import Sdf, Tf, Usd, UsdGeom, UsdSkel  # type: ignore[import-not-found, import-untyped, unused-ignore]
+        from pxr import (  # type: ignore[import-not-found, import-untyped, unused-ignore]
+            Sdf,
+            Tf,
+            Usd,
+            UsdGeom,
+            UsdSkel,
+        )
     except ImportError:
-        raise _refused(file, "USD is read by usd-core, which is not installed; pip install 'pliant[usd]'") from None
+        what = "USD is read by usd-core, which is not installed; pip install 'pliant[usd]'"
+        raise _refused(file, what) from None
     stage = _stage(file, Usd, Tf)
     if part and not (Sdf.Path.IsValidPathString(part) and stage.GetPrimAtPath(part)):
         raise _refused(file, f"there is no prim {part}; prims have paths as /scene/shirt")
 
+    drawn = (UsdGeom.Tokens.default_, UsdGeom.Tokens.render)
     everything = list(stage.Traverse(Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)))
     seen: list[Any] = []
     others: list[Any] = []
     for prim in everything:
         if part and not prim.GetPath().HasPrefix(Sdf.Path(part)):
             continue
-        if prim.IsA(UsdGeom.Gprim) and UsdGeom.Imageable(prim).ComputePurpose() in (UsdGeom.Tokens.default_, UsdGeom.Tokens.render):
+        if prim.IsA(UsdGeom.Gprim) and UsdGeom.Imageable(prim).ComputePurpose() in drawn:
             (seen if prim.IsA(UsdGeom.Mesh) else others).append(prim)
 
-    first, last = (stage.GetStartTimeCode(), stage.GetEndTimeCode()) if stage.HasAuthoredTimeCodeRange() else (-np.inf, np.inf)
+    first, last = -np.inf, np.inf
+    if stage.HasAuthoredTimeCodeRange():
+        first, last = stage.GetStartTimeCode(), stage.GetEndTimeCode()
 
     def samples(prim: Any) -> set[float]:
         mesh = UsdGeom.Mesh(prim)
@@ -136,16 +167,21 @@ def opened(argument: str) -> tuple[str, list[Mesh]]:
 
     def is_seen(prim: Any, codes: list[Any]) -> list[bool]:
         imageable = UsdGeom.Imageable(prim)
-        if not any(UsdGeom.Imageable(above).GetVisibilityAttr().ValueMightBeTimeVarying() for above in _ancestors(prim) if above.IsA(UsdGeom.Imageable)):
+        chain = (above for above in _ancestors(prim) if above.IsA(UsdGeom.Imageable))
+        visibilities = (UsdGeom.Imageable(above).GetVisibilityAttr() for above in chain)
+        if not any(visibility.ValueMightBeTimeVarying() for visibility in visibilities):
             codes = codes[:1]
         return [imageable.ComputeVisibility(code) != UsdGeom.Tokens.invisible for code in codes]
 
     moves = {prim.GetPath(): samples(prim) for prim in seen}
-    # All that moves has the same frames, also where one prim alone is asked for: the numbers of frames are those of the stage.
-    of_all = moves.values() if not part else (samples(prim) for prim in everything if prim.IsA(UsdGeom.Mesh))
+    # Frames are numbered as in the whole stage, also where one prim alone is asked for.
+    all_meshes = (prim for prim in everything if prim.IsA(UsdGeom.Mesh))
+    of_all = moves.values() if not part else (samples(prim) for prim in all_meshes)
     of_stage: set[float] = set().union(*of_all)
     times = sorted(time for time in of_stage if first <= time <= last)
-    still = [Usd.TimeCode(first if np.isfinite(first) else 0.0)] if of_stage else [Usd.TimeCode.Default()]
+    still = [Usd.TimeCode.Default()]
+    if of_stage:
+        still = [Usd.TimeCode(first if np.isfinite(first) else 0.0)]
     moving = [Usd.TimeCode(time) for time in times] or still
 
     meshes: list[tuple[Any, Mesh]] = []
@@ -165,12 +201,16 @@ def opened(argument: str) -> tuple[str, list[Mesh]]:
             empty.append(prim)
     others = [prim for prim in others if any(is_seen(prim, moving))]
     prims = [prim for prim, _ in meshes]
-    _say(argument, "skinning and blend shapes are not evaluated; {} stand as they were modelled", [prim for prim in prims if _is_skinned(prim, UsdSkel)])
-    smooth = [prim for prim in prims if UsdGeom.Mesh(prim).GetSubdivisionSchemeAttr().Get() != UsdGeom.Tokens.none]
+    skinned = [prim for prim in prims if _is_skinned(prim, UsdSkel)]
+    what = "skinning and blend shapes are not evaluated; {} stand as they were modelled"
+    _say(argument, what, skinned)
+    schemes = [UsdGeom.Mesh(prim).GetSubdivisionSchemeAttr().Get() for prim in prims]
+    smooth = [prim for prim, scheme in zip(prims, schemes) if scheme != UsdGeom.Tokens.none]
     _say(argument, "subdivision is not applied; of {} the control mesh is checked", smooth)
     _say(argument, "{} are hidden in some frames and checked in all", flicker)
     _say(argument, "{} have no faces and are left out", empty)
     _say(argument, "{} are no meshes and are left out", others)
     if not meshes:
-        raise _refused(file, "holds no mesh that is seen")
+        what = "holds no mesh that is seen; one is visible, and of purpose default or render"
+        raise _refused(file, what)
     return file, [mesh for _, mesh in meshes]

@@ -1,6 +1,7 @@
-"""Slow and obviously right: every pair of triangles, no tree, no box, no filter, exact signs.
+"""Intersections by brute force, to compare with: every pair of triangles, by exact signs.
 
-Every configuration of a world must give these pairs.
+No tree, no box, no filter. Slow and obviously right: every configuration of a World must give
+these pairs. Cost: O(m^2) for m triangles.
 """
 
 from ._pliant import reference_intersection_pairs as intersection_pairs

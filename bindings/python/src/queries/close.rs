@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::array;
 
-/// Elements that are close, and how far they may be apart.
+/// Kind of elements that are close, and the most that they may be apart.
 #[derive(Clone, Copy)]
 pub(crate) enum Close {
     VertexTriangle(f64),
@@ -23,11 +23,12 @@ impl Kind for Close {
         of: pliant::Selection,
         wanted: Wanted<'w, W>,
     ) -> Result<W::Answer> {
-        match self {
+        let answer = match self {
             Self::VertexTriangle(most) => wanted.of(world.close_vertex_triangle_pairs(of, most)),
             Self::EdgeEdge(most) => wanted.of(world.close_edge_edge_pairs(of, most)),
             Self::Triangles(most) => wanted.of(world.close_triangle_pairs(of, most)),
-        }
+        };
+        answer.map_err(|refused| refused.distance_is("distance"))
     }
 
     fn said(self) -> String {
@@ -39,12 +40,12 @@ impl Kind for Close {
     }
 }
 
-/// The numbers of one element, and of the other behind them.
+/// Joins the barycentric coordinates of two elements into one array.
 fn both<const A: usize, const B: usize, const N: usize>(a: [f64; A], b: [f64; B]) -> [f64; N] {
     array::from_fn(|at| if at < A { a[at] } else { b[at - A] })
 }
 
-/// Hits with so many barycentric coordinates.
+/// Implements `Hit` for a hit with the given number of barycentric coordinates.
 macro_rules! close {
     ($hit:ident, $count:literal, $close:ident => $barycentric:expr) => {
         impl Hit for $hit {
@@ -87,25 +88,36 @@ close!(CloseEdgeEdge, 4, close => both(close.barycentric_a, close.barycentric_b)
 close!(CloseTriangles, 6, close => both(close.barycentric_a, close.barycentric_b));
 
 query_class! {
-    /// A question which elements are close, that waits to be told how much is wanted: all(), the first(), or visit_some(...). Each call asks
-    /// anew, about the shapes that the bodies have then.
+    /// A question which elements are close, answered by all() or first().
     ///
-    /// A call raises pliant.Error as those of Query do; with kind "BadDistance" if the distance is negative, infinite or NaN.
+    /// World.close_vertex_triangle_pairs, close_edge_edge_pairs and close_triangle_pairs make it.
+    /// Ask for all(), the first(), or visit_some(...). Each call asks anew, about the shapes that
+    /// the bodies have then.
+    ///
+    /// A call raises the errors and exceptions of Query, and pliant.Error: BadDistance if the
+    /// distance is negative, infinite or NaN.
     CloseQuery of Close;
 
-    /// All close pairs, sorted, as a ClosePairs of arrays; the same for every option, history and number of threads.
+    /// All close pairs, a ClosePairs of arrays, sorted by their numbers.
     ///
-    /// at_most refuses more than this with pliant.Error, kind "TooManyHits", instead of making arrays that may fill the memory.
+    /// Options, history and number of threads do not change it. at_most refuses a longer list with
+    /// pliant.Error: TooManyHits, before it fills the memory.
+    ///
+    /// Cost: the region where elements are close, and O(k) for k pairs.
     all;
 
-    /// Some close pair, a ClosePair, or None if there is none: much cheaper than all where there are many. Which one may depend on options
-    /// and history; whether there is one never does.
+    /// Some close pair, a ClosePair, or None if there is none.
+    ///
+    /// Much cheaper than all() where there are many. Options and history may change which one it
+    /// is, never whether there is one.
     first;
 
-    /// Calls visit(close) with some close pairs at a time, a ClosePairs, until it returns True (or anything true). Returns whether it did.
-    /// Each comes once; no list of all is made. The order, and how many come at a time, is deterministic; visit may not ask this world.
+    /// Calls visit(close) with a ClosePairs of some at a time, until it returns true.
+    ///
+    /// Returns whether it did. Every pair comes once, and no list of all is made. The order and the
+    /// sizes are deterministic. visit may not ask this world; its exceptions pass through.
     visit_some;
 
-    /// Does early what the query would do first, and asks nothing; see Query.prepare.
+    /// Does early what the query would do first, and asks nothing: see Query.prepare.
     prepare;
 }

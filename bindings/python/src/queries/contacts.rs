@@ -1,20 +1,25 @@
 //! `ContactQuery`: which triangles intersect, and how, with numbers in arrays side by side.
 
 use crate::answers::{Any, Column, Rows, class};
+use crate::arrays::expected;
 use crate::error::Result;
 use crate::queries::{Hit, Kind, Want, Wanted, query_class};
 use pliant::{Contact, ContactKind, Scalar};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// The numbers that Python has for them.
+/// Kinds in the order of their numbers in Python.
 const KINDS: [ContactKind; 3] = [
     ContactKind::Touching,
     ContactKind::Overlapping,
     ContactKind::Crossing,
 ];
 
-/// The one kind that is asked for.
+/// Values of `only`, for messages.
+const WANTED: &str = "a pliant.ContactKind: give only=ContactKind.CROSSING, OVERLAPPING or \
+                      TOUCHING, or None for all";
+
+/// Kind of contact that alone is asked for.
 #[derive(Clone, Copy)]
 pub(crate) struct Only(ContactKind);
 
@@ -22,13 +27,14 @@ impl<'py> FromPyObject<'_, 'py> for Only {
     type Error = PyErr;
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let number: usize = object.extract()?;
+        let number = object.extract::<usize>();
+        let number = number.map_err(|error| expected(object, error, WANTED))?;
         let kind = KINDS.get(number).copied().map(Self);
-        kind.ok_or_else(|| PyValueError::new_err(format!("{number} is no pliant.ContactKind")))
+        kind.ok_or_else(|| PyValueError::new_err(format!("{number} is not {WANTED}")))
     }
 }
 
-/// Triangles that intersect, perhaps only those of one kind.
+/// Question which triangles intersect, perhaps of one kind alone.
 #[derive(Clone, Copy)]
 pub(crate) struct Contacts {
     pub(crate) only: Option<Only>,
@@ -73,23 +79,34 @@ impl Hit for Contact {
 }
 
 query_class! {
-    /// A question which triangles intersect and how, that waits to be told how much is wanted: all(), the first(), or visit_some(...). Each call
-    /// asks anew, about the shapes that the bodies have then. A call raises pliant.Error as those of Query do.
+    /// A question which triangles intersect and how, answered by all() or first().
+    ///
+    /// World.contacts makes it. Ask for all(), the first(), or visit_some(...). Each call asks
+    /// anew, about the shapes that the bodies have then. A call raises the errors and exceptions of
+    /// Query.
     ContactQuery of Contacts;
 
-    /// All contacts, sorted, as a Contacts of arrays; the same for every option, history and number of threads.
+    /// All contacts, a Contacts of arrays, sorted by their numbers.
     ///
-    /// at_most refuses more than this with pliant.Error, kind "TooManyHits", instead of making arrays that may fill the memory.
+    /// Options, history and number of threads do not change it. at_most refuses a longer list with
+    /// pliant.Error: TooManyHits, before it fills the memory.
+    ///
+    /// Cost: that of Query.all. Pairs whose kind rounded signs leave open take their exact signs
+    /// once more.
     all;
 
-    /// Some contact, or None if there is none: much cheaper than all where there are many. Which one may depend on options and history;
-    /// whether there is one never does.
+    /// Some contact, a Contact, or None if there is none.
+    ///
+    /// Much cheaper than all() where there are many. Options and history may change which one it
+    /// is, never whether there is one.
     first;
 
-    /// Calls visit(contacts) with some contacts at a time, a Contacts, until it returns True (or anything true). Returns whether it did.
-    /// Each comes once; no list of all is made. The order, and how many come at a time, is deterministic; visit may not ask this world.
+    /// Calls visit(contacts) with a Contacts of some at a time, until it returns true.
+    ///
+    /// Returns whether it did. Every contact comes once, and no list of all is made. The order and
+    /// the sizes are deterministic. visit may not ask this world; its exceptions pass through.
     visit_some;
 
-    /// Does early what the query would do first, and asks nothing; see Query.prepare.
+    /// Does early what the query would do first, and asks nothing: see Query.prepare.
     prepare;
 }

@@ -7,7 +7,7 @@ use crate::queries::{Hit, Kind, Want, Wanted, query_class};
 use pliant::{EdgeEdgeImpact, Scalar, VertexTriangleImpact};
 use pyo3::prelude::*;
 
-/// Elements that meet, and how wide the intervals of times may be.
+/// Kind of elements that meet, and the widest interval of times.
 #[derive(Clone, Copy)]
 pub(crate) enum Impacts {
     VertexTriangle(f64),
@@ -63,24 +63,35 @@ impacts!(VertexTriangleImpact);
 impacts!(EdgeEdgeImpact);
 
 query_class! {
-    /// A question which elements meet on their way, that waits to be told how much is wanted: all(), the first(), or visit_some(...). Each call
-    /// asks anew, about the shapes and the motions that the bodies have then.
+    /// A question which elements meet during the motion, answered by all() or first().
     ///
-    /// A call raises pliant.Error as those of Query do; with kind "BadWidth" if the width is negative, infinite or NaN.
+    /// World.vertex_triangle_impacts and edge_edge_impacts make it. Ask for all(), the first(), or
+    /// visit_some(...). Each call asks anew, about the shapes and the motions that the bodies have
+    /// then.
+    ///
+    /// A call raises the errors and exceptions of Query, and pliant.Error: BadWidth if the width is
+    /// negative, infinite or NaN.
     ImpactQuery of Impacts;
 
-    /// All impacts, sorted, as an Impacts of arrays; the same for every option, history and number of threads.
+    /// All impacts, an Impacts of arrays, sorted by their numbers.
     ///
-    /// at_most refuses more than this with pliant.Error, kind "TooManyHits", instead of making arrays that may fill the memory.
+    /// Options, history and number of threads do not change it. at_most refuses a longer list with
+    /// pliant.Error: TooManyHits, before it fills the memory.
+    ///
+    /// Memory is for what meets: pairs that are looked at on the way are not listed.
     all;
 
-    /// The impact with the least exact time, an Impact; of several, the first in order. None if nothing meets. Much faster than all.
+    /// The impact with the least exact time, an Impact, or None if nothing meets.
+    ///
+    /// Of several at one time it is the first by number. Much faster than all().
     first;
 
-    /// Calls visit(impacts) with some impacts at a time, an Impacts, until it returns True (or anything true). Returns whether it did.
-    /// Each comes once; no list of all is made. The order, and how many come at a time, is deterministic; visit may not ask this world.
+    /// Calls visit(impacts) with an Impacts of some at a time, until it returns true.
+    ///
+    /// Returns whether it did. Every impact comes once, and no list of all is made. The order and
+    /// the sizes are deterministic. visit may not ask this world; its exceptions pass through.
     visit_some;
 
-    /// Does early what the query would do first, and asks nothing; see Query.prepare.
+    /// Does early what the query would do first, and asks nothing: see Query.prepare.
     prepare;
 }

@@ -1,9 +1,8 @@
-//! Questions that wait to be told how much is wanted of them: what is the same for every kind.
+//! Queries that wait to be told how much is wanted: the part that all kinds share.
 //!
-//! A kind is a file here. It says what is asked of a world (a [`Kind`]), what each type of hit that
-//! the library finds becomes in Python (a [`Hit`]), and what help says of the class, which
-//! [`query_class`] makes: pyo3 has no generic ones. Besides, a new kind needs its `mod` below, its
-//! class in `lib.rs`, and the methods of `World` that ask it.
+//! A kind is a file here, with a [`Kind`] that asks a world, and a [`Hit`] for each type of hit.
+//! [`query_class`] makes its class, because pyo3 has no generic classes. A new kind also needs its
+//! `mod` below, its class in `lib.rs`, and the methods of `World` that ask it.
 
 use crate::answers::Any;
 use crate::error::Result;
@@ -21,12 +20,12 @@ pub(crate) mod contacts;
 pub(crate) mod impacts;
 pub(crate) mod pairs;
 
-/// A hit of the library, and what Python is shown of one and of many.
+/// Hit of the library, and the objects of Python that one and many become.
 pub(crate) trait Hit: Copy + Send + 'static {
-    /// Many, column by column, as arrays take them over.
+    /// Many hits, column by column, as arrays take them over.
     type Columns: Send;
 
-    /// Copies what was found. Whoever calls need not have the interpreter lock.
+    /// Copies hits into columns. The caller need not have the interpreter lock.
     fn columns(hits: &[Self]) -> Self::Columns;
 
     /// Makes arrays of columns.
@@ -36,7 +35,7 @@ pub(crate) trait Hit: Copy + Send + 'static {
     fn one(self, py: Python<'_>) -> PyResult<Any<'_>>;
 }
 
-/// A kind of query, with what is asked besides who.
+/// Kind of query, with its arguments besides the selection.
 pub(crate) trait Kind: Copy + Send + Sync {
     /// Asks a world. The hits of a kind may be of several types.
     fn ask<'w, W: Want>(
@@ -46,34 +45,34 @@ pub(crate) trait Kind: Copy + Send + Sync {
         wanted: Wanted<'w, W>,
     ) -> Result<W::Answer>;
 
-    /// What `repr` says behind the selection.
+    /// Text of `repr` behind the selection.
     fn said(self) -> String;
 }
 
-/// How much is wanted of a query, whatever its hits are.
+/// How much is wanted of a query, for hits of any type.
 pub(crate) trait Want: Send {
     type Answer: Send;
 
     fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<Self::Answer>;
 }
 
-/// What is wanted, and what may end the search for it.
+/// How much is wanted, and the question that may end the search early.
 pub(crate) struct Wanted<'w, W> {
     want: W,
     question: &'w (dyn Fn() -> bool + Sync),
 }
 
 impl<'w, W: Want> Wanted<'w, W> {
-    /// Answers a query with what is wanted.
+    /// Answers a query with as much as is wanted.
     pub(crate) fn of<H: Hit>(self, query: pliant::Query<'w, H>) -> Result<W::Answer> {
         self.want.of(query.interrupt_if(self.question))
     }
 }
 
-/// An object of Python's that is made when the world is free again.
+/// Object of Python that is made when the world is free again.
 pub(crate) type Made = Box<dyn FnOnce(Python<'_>) -> PyResult<Any<'_>> + Send>;
 
-/// All hits; at most so many.
+/// All hits, up to a limit.
 pub(crate) struct All(pub(crate) usize);
 
 impl Want for All {
@@ -97,7 +96,7 @@ impl Want for First {
     }
 }
 
-/// Nothing but what the query does first.
+/// The first phases of the query alone.
 pub(crate) struct Prepare;
 
 impl Want for Prepare {
@@ -108,7 +107,7 @@ impl Want for Prepare {
     }
 }
 
-/// A function of Python's that is shown one hit after the other.
+/// Visitor of Python that is shown one hit after the other.
 pub(crate) struct Each<'a>(pub(crate) &'a Py<PyAny>);
 
 impl Want for Each<'_> {
@@ -119,7 +118,7 @@ impl Want for Each<'_> {
     }
 }
 
-/// A function of Python's that is shown some hits at a time.
+/// Visitor of Python that is shown some hits at a time.
 pub(crate) struct SomeAtATime<'a>(pub(crate) &'a Py<PyAny>);
 
 impl Want for SomeAtATime<'_> {
@@ -130,7 +129,7 @@ impl Want for SomeAtATime<'_> {
     }
 }
 
-/// Whether a visitor has ended a visit, or what it raised.
+/// Whether a visitor has ended a visit, or the exception that it raised.
 type Stopped = ControlFlow<PyResult<()>>;
 
 /// Calls a visitor, under the interpreter lock.
@@ -170,11 +169,12 @@ impl<K: Kind> Question<K> {
     }
 }
 
-/// Why nobody goes through a question, or counts it.
+/// Exception for a query that is iterated, or whose length is asked for.
 pub(crate) fn no_list(question: &Any<'_>) -> PyResult<PyErr> {
     let class = question.get_type().fully_qualified_name()?;
     Ok(PyTypeError::new_err(format!(
-        "a {class} is a question that was not answered yet: ask it for all(), first() or visit_some(...)"
+        "a {class} is a question that was not answered yet: ask it for all(), first() or \
+         visit_some(...)"
     )))
 }
 

@@ -7,7 +7,7 @@ use numpy::PyArray2;
 use pliant::{EdgeEdge, Pair, Scalar, VertexTriangle};
 use pyo3::prelude::*;
 
-/// What is asked: triangles that intersect, or elements within a margin round each.
+/// Kind of question: triangles that intersect, or elements near each other within a margin.
 #[derive(Clone, Copy)]
 pub(crate) enum Pairs {
     Intersections,
@@ -70,36 +70,57 @@ rows!(VertexTriangle, "VertexTriangle");
 rows!(EdgeEdge, "EdgeEdge");
 
 query_class! {
-    /// A question that was put to a world, and waits to be told how much is wanted: all() hits, the first(), or a visit(...) to one after
-    /// the other. Each call asks anew, about the shapes that the bodies have then.
+    /// A question to a world, answered by all(), first() or visit().
     ///
-    /// A call raises pliant.Error if the selection names a body that is not there, or one body as two. What a signal handler raises
-    /// meanwhile in the main thread, KeyboardInterrupt after Ctrl-C, ends it early; the world stays usable, and makes the boxes of all
-    /// bodies anew in the next query.
+    /// World.intersections and the two methods for candidates make it. Ask for all() hits, the
+    /// first(), or a visit(...). Each call asks anew, about the shapes that the bodies have then.
+    ///
+    /// Whatever is asked, a call raises pliant.Error and leaves the world usable:
+    ///
+    /// - NoSuchBody if the selection names a body that is not there
+    /// - SameBody if Selection.between names one body twice
+    /// - BadMargin if the radius of candidates is negative, infinite or NaN
+    /// - TooManyHits if a list would be longer than at_most
+    /// - Busy if the world is answering another call, also one made by a visitor
+    ///
+    /// An exception that a signal handler raises in the main thread ends the query early:
+    /// KeyboardInterrupt after Ctrl-C. The next query then refits the boxes of all bodies.
     Query of Pairs;
 
-    /// All hits, sorted: (k, 4) uint32; the same for every option, history and number of threads. A row is body, triangle, body, triangle;
-    /// of candidates body, vertex, body, triangle, or body, edge, body, edge.
+    /// All hits, a new array (k, 4) uint32, sorted.
     ///
-    /// at_most refuses a list of more hits than this with pliant.Error, kind "TooManyHits", instead of making one that may fill the
-    /// memory.
+    /// A row is body, triangle, body, triangle. Of candidates it is body, vertex, body, triangle,
+    /// or body, edge, body, edge. Options, history and number of threads do not change it.
+    ///
+    /// at_most refuses a longer list with pliant.Error: TooManyHits, before it fills the memory.
+    ///
+    /// Cost: the broad phase, O(bodies + overlaps) where bodies move a little. Where boxes overlap,
+    /// what grows with the region where bodies are close. Sorting is O(k).
     all;
 
-    /// Some hit, a Pair, VertexTriangle or EdgeEdge, or None if there is none: much cheaper than all where there are many. Which one may
-    /// depend on options and history; whether there is one never does.
+    /// Some hit, a Pair, VertexTriangle or EdgeEdge, or None if there is none.
+    ///
+    /// Much cheaper than all() where there are many. Options and history may change which one it
+    /// is, never whether there is one.
     first;
 
-    /// Calls visit(rows) with some hits at a time, (k, 4) uint32 as of all(), until it returns True (or anything true). Returns whether it
-    /// did. Every hit comes once; no list of all is made. The order, and how many come at a time, is deterministic.
+    /// Calls visit(rows) with some hits at a time, (k, 4) uint32, until it returns true.
+    ///
+    /// Returns whether it did. Every hit comes once, and no list of all is made. The order and the
+    /// sizes are deterministic. visit may not ask this world; its exceptions pass through.
     visit_some;
 
-    /// Does early what the query would do first, and asks nothing: finds the bodies that may meet and refits the upper levels of their
-    /// trees; all of it in a body that meets itself. Never needed for right answers; it is for whoever wants to time it, or has time
-    /// to spare.
+    /// Does early what the query would do first, and asks nothing.
+    ///
+    /// Finds the bodies that may meet, and refits the upper levels of their trees. Refits all
+    /// levels in a body that meets itself. Never needed for right answers; for timing, or in spare
+    /// time.
     prepare;
 
-    /// Calls visit(hit) for every hit once, until it returns True (or anything true). Returns whether it did. The order is
-    /// deterministic, not sorted; visit may not ask this world.
+    /// Calls visit(hit) for every hit once, until it returns true. Returns whether it did.
+    ///
+    /// hit is a Pair, VertexTriangle or EdgeEdge. The order is deterministic, not sorted. visit may
+    /// not ask this world; its exceptions pass through. visit_some is faster where there are many.
     fn visit(&self, visit: &Any<'_>) -> Result<bool> {
         self.0.ask(visit.py(), Each(visit.as_unbound()))
     }

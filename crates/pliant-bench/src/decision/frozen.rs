@@ -1,7 +1,9 @@
-//! The exact decision as it stood when the project began, scalar and frozen: the yardstick that gains are measured against.
+//! Exact triangle-triangle test, as it stood when the project began: a frozen yardstick for later
+//! gains.
 //!
-//! Six edge-triangle tests over fifteen orientation signs; each sign by a filter in f64 and, where that is not certain, by
-//! `robust`. The library's `narrow_phase` explains and proves it; this copy is kept as it is on purpose, and on f32 only.
+//! Six edge-triangle tests over fifteen orientation signs. Each sign comes from a filter in f64
+//! and, where that is uncertain, from `robust`. This copy is scalar and for f32 only, and is kept
+//! unchanged on purpose. `pliant-exact` explains and proves the test.
 
 use super::Triangle;
 
@@ -15,10 +17,11 @@ pub fn intersect(a: &Triangle, b: &Triangle) -> bool {
     triangles_intersect(&wide(a), &wide(b))
 }
 
-/// 9 u: eight roundings on every path of a determinant, and one for the bound.
+/// Error bound of the filter, 9 u: eight roundings on every path of a determinant, and one for the
+/// bound.
 const RELATIVE_ERROR: f64 = 9.0 * (f64::EPSILON / 2.0);
 
-/// The side of the plane through a, b, c on which d lies.
+/// Side of the plane through a, b, c on which d lies.
 #[inline]
 fn sign(a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
     let difference = |p: &Point| -> Point { std::array::from_fn(|axis| p[axis] - a[axis]) };
@@ -59,7 +62,7 @@ fn triangles_intersect(a: &Corners, b: &Corners) -> bool {
     if of_a == [0; 3] && of_b == [0; 3] {
         return in_one_plane(a, b) && intersect_in_one_plane(a, b);
     }
-    // Edge signs are wanted twice, once for either triangle, and often not at all.
+    // Edge signs are needed twice, once for either triangle, and often not at all.
     let mut edge_signs = [[None; 3]; 3];
     let mut edge_sign = |i: usize, j: usize| {
         *edge_signs[i][j]
@@ -70,7 +73,7 @@ fn triangles_intersect(a: &Corners, b: &Corners) -> bool {
             .any(|j| crosses(of_b, j) && agree([edge_sign(0, j), edge_sign(1, j), edge_sign(2, j)]))
 }
 
-/// The sides of the plane of `triangle` on which three points lie.
+/// Sides of the plane of a triangle on which three points lie.
 #[inline]
 fn plane_signs([a, b, c]: &Corners, points: &Corners) -> [Sign; 3] {
     [0, 1, 2].map(|i| sign(a, b, c, &points[i]))
@@ -88,13 +91,14 @@ fn crosses(signs: [Sign; 3], i: usize) -> bool {
     start * end <= 0 && (start, end) != (0, 0)
 }
 
-/// All >= 0 or all <= 0.
+/// Whether all signs are >= 0, or all are <= 0.
 #[inline]
 fn agree(signs: [Sign; 3]) -> bool {
     signs.iter().all(|&sign| sign >= 0) || signs.iter().all(|&sign| sign <= 0)
 }
 
-/// Whether triangles whose six plane signs are zero lie in one plane: false only for two skew segments.
+/// Whether two triangles whose six plane signs are zero lie in one plane. False only for two skew
+/// segments.
 fn in_one_plane(a: &Corners, b: &Corners) -> bool {
     (0..3).all(|i| (0..3).all(|j| sign(&a[i], &a[(i + 1) % 3], &b[j], &b[(j + 1) % 3]) == 0))
 }
@@ -108,14 +112,15 @@ fn intersect_in_one_plane(a: &Corners, b: &Corners) -> bool {
 
 type Point2 = [f64; 2];
 
-/// Closed triangles of the plane: an edge meets an edge, or one triangle holds a corner of the other.
+/// Whether closed triangles in the plane intersect: edges meet, or one holds a corner of the other.
 fn intersect_2d(a: &[Point2; 3], b: &[Point2; 3]) -> bool {
     (0..3).any(|i| (0..3).any(|j| segments_meet([a[i], a[(i + 1) % 3]], [b[j], b[(j + 1) % 3]])))
         || holds(a, b[0])
         || holds(b, a[0])
 }
 
-/// Closed segments, points included: their boxes overlap and neither lies on one side of the other's line.
+/// Whether closed segments meet, points included: their boxes overlap, and each touches or crosses
+/// the other's line.
 fn segments_meet([p0, p1]: [Point2; 2], [q0, q1]: [Point2; 2]) -> bool {
     let boxes_overlap = (0..2).all(|axis| {
         p0[axis].min(p1[axis]) <= q0[axis].max(q1[axis])
@@ -126,7 +131,8 @@ fn segments_meet([p0, p1]: [Point2; 2], [q0, q1]: [Point2; 2]) -> bool {
         && orientation_2d(q0, q1, p0) * orientation_2d(q0, q1, p1) <= 0
 }
 
-/// Whether a closed triangle holds a point. The box is for the triangle that is a segment or a point.
+/// Whether a closed triangle holds a point. The box decides for a triangle that is a segment or a
+/// point.
 fn holds(triangle: &[Point2; 3], point: Point2) -> bool {
     let in_box = (0..2).all(|axis| {
         let [a, b, c] = triangle.map(|corner| corner[axis]);

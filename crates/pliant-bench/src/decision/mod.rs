@@ -1,4 +1,4 @@
-//! Triangle against triangle: the same for every method but ours, whose own is tested to agree.
+//! Triangle-triangle tests for all methods except ours, whose own test is shown to agree.
 
 mod frozen;
 mod moller;
@@ -6,8 +6,8 @@ mod moller;
 pub use frozen::intersect as exact;
 pub use moller::intersect as moller;
 
-/// Three corners in the world.
+/// World positions of three corners.
 pub type Triangle = [[f32; 3]; 3];
 
-/// Whether two triangles intersect.
+/// A triangle-triangle test: whether two triangles intersect.
 pub type Decision = fn(&Triangle, &Triangle) -> bool;

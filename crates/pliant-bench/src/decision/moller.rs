@@ -1,34 +1,42 @@
-//! The paper's triangle test: T. Möller, *A Fast Triangle-Triangle Intersection Test*, Journal of Graphics Tools 2(2), 1997, in
-//! the division-free form of his published program, in f32 and with its tolerance. Here so that its wrong answers can be
-//! counted.
+//! Möller's triangle-triangle intersection test, as the paper uses it, to count its wrong answers.
 //!
-//! 1. The signed distances of one triangle's corners from the plane of the other, n . q + d; those below [`TOLERANCE`] in
-//!    magnitude are taken for zero. All on one side: no. And the other way round.
-//! 2. The line of the two planes has the direction of the product of the normals. Each triangle cuts an interval out of it,
-//!    measured on the coordinate in which the direction is largest, from corners and distances. Ends are fractions;
-//!    multiplying both intervals by all four denominators compares them without a division.
-//! 3. All distances zero: the triangles are taken for coplanar and projected along the largest component of the normal. Edge
-//!    against edge, then a corner of either inside the other.
+//! From Tomas Möller, *A Fast Triangle-Triangle Intersection Test*, Journal of Graphics Tools 2(2),
+//! 1997. In the division-free form of his published program, in f32 and with its tolerance.
 //!
-//! It is not exact:
-//! - distances are not normalised: they are multiplied by twice the area of the triangle, so that the tolerance means another
-//!   length for every triangle and another answer for every scale. Small triangles are taken for coplanar all the time, and
-//!   then decided in the projection, where all meet that lie above each other;
-//! - n . q + d loses the digits that the distance from the origin costs;
-//! - the ends are products of a coordinate and four distances, which are volumes. With triangles of size 1,000 they overflow
-//!   in f32: infinite ends meet where they should not, and what is no number meets nothing. (Without the tolerance they
-//!   underflow where triangles are small or nearly coplanar, and meet everything);
-//! - in one plane, parallel edges never meet, and a corner on an edge is not inside. Another pair of edges makes up for it,
-//!   unless a triangle is degenerate. A degenerate triangle is in one plane with everything.
+//! 1. Signed distances n . q + d of one triangle's corners from the plane of the other. Magnitudes
+//!    below [`TOLERANCE`] count as zero. All on one side: no intersection. Then with the triangles
+//!    exchanged.
+//! 2. The line of the two planes has the direction of the product of the normals. Each triangle
+//!    cuts an interval out of it, computed from corners and distances. It is measured on the
+//!    coordinate in which the direction is largest. Ends are fractions; multiplying both intervals
+//!    by all four denominators compares them without a division.
+//! 3. All distances zero: the triangles are taken for coplanar, and projected along the largest
+//!    component of the normal vector. Edges are tested against edges, then a corner of either
+//!    against the other triangle.
+//!
+//! The test is not exact:
+//!
+//! - Distances are not normalised: each is multiplied by twice the area of the triangle. So the
+//!   tolerance is another length for every triangle, and another answer for every scale. Small
+//!   triangles are always taken for coplanar. In the projection, all that lie above each other
+//!   meet.
+//! - n . q + d loses the digits that the distance from the origin costs.
+//! - Ends of intervals are products of a coordinate and four distances, which are volumes. With
+//!   triangles of size 1,000 they overflow in f32. Infinite ends meet where they should not, and
+//!   NaN meets nothing. Without the tolerance they would underflow for small or nearly coplanar
+//!   triangles, and meet everything.
+//! - In one plane, parallel edges never meet, and a corner on an edge is not inside. Another pair
+//!   of edges makes up for it, unless a triangle is degenerate. A degenerate triangle is in one
+//!   plane with everything.
 
 use super::Triangle;
 
-/// Below it, the product of a distance and twice an area is taken for zero.
+/// Limit below which the product of a distance and twice an area counts as zero.
 const TOLERANCE: f32 = 1e-6;
 
 type Vector = [f32; 3];
 
-/// Whether two triangles intersect, by the rules of 1997.
+/// Whether two triangles intersect, by the published rules.
 pub fn intersect(v: &Triangle, u: &Triangle) -> bool {
     let plane_v = Plane::of(v);
     let of_u = u.map(|corner| plane_v.distance(corner));
@@ -64,7 +72,7 @@ impl Plane {
         }
     }
 
-    /// Multiplied by twice the area of the triangle.
+    /// Signed distance, multiplied by twice the area of the triangle.
     fn distance(&self, point: Vector) -> f32 {
         let distance = dot(self.normal, point) + self.offset;
         if distance.abs() < TOLERANCE {
@@ -75,13 +83,16 @@ impl Plane {
     }
 }
 
-/// No distance is zero and all have one sign. The products cannot underflow: distances are zero or at least [`TOLERANCE`].
+/// Whether all distances have one sign, and none is zero.
+///
+/// The products cannot underflow: distances are zero or at least [`TOLERANCE`].
 fn one_side([d0, d1, d2]: [f32; 3]) -> bool {
     d0 * d1 > 0.0 && d0 * d2 > 0.0
 }
 
-/// The interval that a triangle cuts out of the line: from `origin + slopes[0] / denominators[0]` to
-/// `origin + slopes[1] / denominators[1]`.
+/// Interval that a triangle cuts out of the line of the two planes.
+///
+/// It goes from `origin + slopes[0] / denominators[0]` to `origin + slopes[1] / denominators[1]`.
 struct Cut {
     origin: f32,
     slopes: [f32; 2],
@@ -89,11 +100,13 @@ struct Cut {
 }
 
 impl Cut {
-    /// From the coordinates of the corners along the line and their distances from the other plane; `None` if the triangle
-    /// lies in it.
+    /// Interval from the coordinates of the corners along the line, and their distances from the
+    /// other plane.
+    ///
+    /// `None` if the triangle lies in that plane.
     fn of(along: [f32; 3], distances: [f32; 3]) -> Option<Self> {
         let [d0, d1, d2] = distances;
-        // The corner that is alone on its side, or on the plane with the others to either side of it.
+        // The corner alone on its side, or on the plane with the others to either side of it.
         let alone = if d0 * d1 > 0.0 {
             2
         } else if d0 * d2 > 0.0 {
@@ -115,7 +128,7 @@ impl Cut {
         })
     }
 
-    /// The ends multiplied by all four denominators, the smaller one first.
+    /// Ends multiplied by all four denominators, the smaller first.
     fn ends(&self, other: &Self) -> [f32; 2] {
         let [x0, x1] = self.denominators;
         let theirs = other.denominators[0] * other.denominators[1];

@@ -1,11 +1,12 @@
-//! The experiments of a build: the one place to add one.
+//! List of the experiments of this build: the one place to add one.
 
 use super::{Experiment, bodies, degrees, levels, splits, table_1, when};
 #[cfg(feature = "peers")]
 use super::{change, close, cloth, degenerate, experiment_1, experiment_3, near, peers};
 
-/// The experiments of this build, in the order of [`titles::TITLES`](super::titles::TITLES): without the feature `peers`, those that
-/// need no other library.
+/// Experiments of this build, in the order of [`titles::TITLES`](super::titles::TITLES).
+///
+/// Without the feature `peers`, only experiments that need no other library.
 pub const EXPERIMENTS: &[Experiment] = &[
     #[cfg(feature = "peers")]
     experiment_1::EXPERIMENT,

@@ -1,5 +1,7 @@
-//! "For simulations with up to approximately 100 bodies, the naive brute force technique ... performs very well" (paper, 3.4):
-//! brute force against sweep and prune from 10 to 10,000 bodies, and where they cross; and the tree of bodies, which is not in the paper.
+//! Broad phases, from 10 to 10,000 bodies: brute force, sweep and prune, and where they cross.
+//!
+//! "For simulations with up to approximately 100 bodies, the naive brute force technique ...
+//! performs very well" (paper, 3.4). The tree of bodies, which is not in the paper, takes part.
 
 use super::{Experiment, Form, Planned, ours, titles, truth, window};
 use crate::contest::{Contender, Contest, Query};
@@ -20,7 +22,7 @@ const BRUTE: &str = "pliant, paper: brute force";
 const SWEEP: &str = "pliant, paper: sweep and prune";
 const TREE: &str = "pliant, paper: tree of bodies";
 
-/// Small bodies, so that the broad phase is seen.
+/// Triangles a body: few, so that the broad phase dominates.
 const TRIANGLES: usize = 20;
 
 fn methods() -> Vec<Contender> {
@@ -41,7 +43,7 @@ fn plan(form: Form) -> Vec<Planned> {
     counts
         .iter()
         .map(|&count| {
-            // Steps in a row: sweep and prune lives on motion that is coherent.
+            // Consecutive steps: sweep and prune relies on coherent motion.
             let steps: Vec<u32> = if form == Form::Full {
                 (101..=130).collect()
             } else {

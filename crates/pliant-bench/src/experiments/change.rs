@@ -1,7 +1,9 @@
-//! "Bodies that are cut and torn, and bodies that merge" (paper, future work): meshes that change, and trees that follow.
+//! Changing meshes, and trees that follow: bodies that are cut, torn and merged (paper, future
+//! work).
 //!
-//! Every scene is played by our edits, by what people do today (all is built anew when a mesh changes), and by obvhs with its own insertion
-//! and removal. `shuffle` and `remesh` also have a fresh tree for every query, whose building is not counted; `tear` the same
+//! Every scene is played by our edits, and by obvhs with its own insertion and removal of leaves.
+//! It is also played by building anew at every change, as people do today. `shuffle` and `remesh`
+//! also have a fresh tree for every query, whose building is not counted. `tear` also has the same
 //! shapes without edits.
 
 use super::{Experiment, Form, Planned, titles, whole};
@@ -88,7 +90,7 @@ fn plan(form: Form) -> Vec<Planned> {
         .collect()
 }
 
-/// How many times as long all steps of a method take as those of another.
+/// Time of all steps of a method, over the time of another.
 fn times(contest: &ContestRecord, method: &str, other: &str) -> f64 {
     let all = |method: &str| {
         let figures = contest.method(method);
@@ -99,19 +101,19 @@ fn times(contest: &ContestRecord, method: &str, other: &str) -> f64 {
     all(method) / all(other)
 }
 
-/// How long every step of a method takes.
+/// Time of every step of a method, in milliseconds.
 fn steps(method: &MethodRecord) -> Vec<f64> {
     let both = method.update_ms.iter().zip(&method.query_ms);
     both.map(|(update, query)| update + query).collect()
 }
 
-/// The longest step of a method against its median step.
+/// Longest step of a method, over its median step.
 fn longest_against_median(method: &MethodRecord) -> f64 {
     let steps = steps(method);
     steps.iter().copied().fold(f64::NAN, f64::max) / median(&steps)
 }
 
-/// How much longer than the same step of another method a step takes at most, against the median step of that.
+/// Largest excess of a step over the same step of another method, over the median step of that.
 fn most_added(method: &MethodRecord, other: &MethodRecord) -> f64 {
     let [longer, steps] = [steps(method), steps(other)];
     let added = longer
@@ -163,7 +165,8 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
                 claims.push(measured(what, format!("{factor:.2} times")));
             }
         }
-        // Edits make long steps of their own: what mending adds is seen beside the same steps without it.
+        // Edits make long steps themselves. The cost of mending shows beside the same steps without
+        // it.
         if let (Some(mended), Some(edited)) = (contest.method(MENDED), contest.method(EDITED)) {
             let added = most_added(mended, edited);
             claims.push(measured(

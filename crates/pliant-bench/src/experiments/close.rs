@@ -1,8 +1,9 @@
-//! What is close: vertices and triangles, and edges and edges, that are at most so far apart, measured, beside candidates at the same margin;
-//! and how far two bodies are apart that deform at every step, beside parry3d.
+//! Close pairs (vertex-triangle and edge-edge, measured) beside candidates at the same margin;
+//! distances of bodies beside parry3d.
 //!
-//! Close pairs are asked of all bodies and of each with itself, as a solver does. *Margin m* is m mean lengths of an edge: elements are close
-//! that are at most so far apart, and candidates are those whose boxes are.
+//! Close pairs are asked of all bodies and of each with itself, as a solver does. *Margin m* is m
+//! mean edge lengths: the largest distance of close pairs, and of the boxes of candidates. The two
+//! bodies whose distance is asked deform at every step.
 
 use super::lines::{Line, planned};
 use super::{DEFAULT, Experiment, Form, Planned, STEPS, every, factor_claim, titles};
@@ -30,7 +31,7 @@ const PEERS: [&str; 2] = [BY_QUERY, BY_LEAF_PAIRS];
 
 const DISTANCE: &str = "distance";
 
-/// A margin in mean lengths of an edge; none where bodies are asked how far they are apart.
+/// Margin in mean edge lengths; `None` where the distance of two bodies is asked.
 type Margin = Option<f64>;
 
 fn lines() -> Vec<Line<Margin>> {

@@ -1,5 +1,6 @@
-//! Self-collision, which the paper leaves to others ("another very important feature"): a sheet that folds onto itself, ours
-//! against what a Rust user would take today.
+//! Self-collision of a sheet that folds onto itself, beside the Rust libraries of today.
+//!
+//! The paper leaves self-collision to others ("another very important feature").
 
 use super::{
     DEFAULT, Experiment, Form, HYBRID, OBVHS_1, OBVHS_4, PARRY, Planned, contenders, every,

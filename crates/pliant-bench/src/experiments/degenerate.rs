@@ -1,6 +1,9 @@
-//! Where arithmetic is hard: exactly coplanar grids that slide over each other, and a scene 10^4 from the origin, where an `f32`
-//! has lost four of its seven digits. And the same scene at the origin, to compare with. The paper's triangle test takes part,
-//! and its wrong answers are counted.
+//! Hard arithmetic: exactly coplanar grids that slide over each other, and a scene far from the
+//! origin.
+//!
+//! At 10^4 from the origin, an `f32` has lost four of its seven digits. The same scene at the
+//! origin is there to compare. The paper's triangle test takes part, and its wrong answers are
+//! counted.
 
 use super::{
     DEFAULT, Experiment, Form, HYBRID, OBVHS_4, PARRY, Planned, contenders, every, factor_claim,
@@ -20,7 +23,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 };
 
 const METHODS: [&str; 4] = [HYBRID, DEFAULT, PARRY, OBVHS_4];
-/// The paper's triangle test, to count its wrong answers; it is not expected to be right.
+/// The paper's triangle test, to count its wrong answers. It may be wrong.
 const MOLLER: &str = "flat sweep with the paper's triangle test";
 
 const COPLANAR: &str = "coplanar grids";
@@ -33,7 +36,8 @@ fn methods() -> Vec<Contender> {
     methods
 }
 
-/// Two grids of `2 (side - 1)^2` triangles in the plane z = 0; the second slides along by a quarter of a cell a step.
+/// Two grids of `2 (side - 1)^2` triangles in the plane z = 0. The second slides by a quarter of a
+/// cell a step.
 fn sliding_grids(side: u32, steps: u32) -> Motion {
     let grid = |shift: f32| -> Vec<[f32; 3]> {
         (0..side * side)
@@ -71,7 +75,7 @@ fn sliding_grids(side: u32, steps: u32) -> Motion {
     }
 }
 
-/// The spheres, moved by `shift` along every axis.
+/// The two spheres, moved by `shift` along every axis.
 fn shifted_spheres(name: &str, shift: f32, triangles: usize, steps: &[u32]) -> Motion {
     let mut motion = Motion::of_scene(&scene("spheres", triangles), steps.iter().copied());
     let bodies = motion.bodies.iter_mut().map(|body| &mut body.first);

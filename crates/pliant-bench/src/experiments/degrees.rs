@@ -1,5 +1,8 @@
-//! "Using 8-ary tree versions ... was a slightly better choice than both 4-ary and binary versions" (paper, 3.2); and "an 8-ary
-//! tree version of van den Bergen's method ... runs approximately 10 to 20 percent faster than the binary version" (4).
+//! Degree of the tree: 2, 4 or 8 children.
+//!
+//! "Using 8-ary tree versions ... was a slightly better choice than both 4-ary and binary versions"
+//! (paper, 3.2). "An 8-ary tree version of van den Bergen's method ... runs approximately 10 to 20
+//! percent faster than the binary version" (4).
 
 use super::{
     BERGEN_LOCAL, BERGEN_LOCAL_8, BERGEN_WORLD, BERGEN_WORLD_8, Experiment, Form, Planned,

@@ -1,5 +1,7 @@
-//! Figure 4 of the paper: 27 translating, rotating and deforming bodies that hit each other: bumpy spheres (4a), bodies with
-//! arms (4b), with a collision response.
+//! Experiment 3 (figure 4 of the paper): 27 translating, rotating and deforming bodies that
+//! collide.
+//!
+//! Bumpy spheres (4a) and bodies with arms (4b), with a collision response.
 
 use super::response::with_response;
 use super::{
@@ -26,7 +28,7 @@ const METHODS: [&str; 7] = [
     OBVHS_4,
 ];
 
-/// Figure, scene, triangles in small form, and the factor over van den Bergen that the paper found.
+/// Figure, scene, triangles in small form, and the paper's factor over van den Bergen.
 const SCENES: [(&str, &str, usize, f64); 2] = [
     ("figure 4a: 27 spheres", "crowd", 320, 5.6),
     ("figure 4b: 27 bodies with arms", "arms", 1280, 4.5),

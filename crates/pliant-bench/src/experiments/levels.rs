@@ -1,5 +1,7 @@
-//! "We initially update the n / 2 first levels bottom-up, which we have found to be an efficient choice" (paper, 3.3): the
-//! hybrid's level from 0 to n.
+//! Level of the hybrid update, from 0 to n.
+//!
+//! "We initially update the n / 2 first levels bottom-up, which we have found to be an efficient
+//! choice" (paper, 3.3).
 
 use super::{Experiment, Form, Planned, every, on_scene, ours, scene, titles};
 use crate::contest::{Contender, Query};
@@ -15,7 +17,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     claims,
 };
 
-/// n, the level of the deepest leaf.
+/// Level of the deepest leaf, n.
 fn depth(scene: &Scene) -> u32 {
     let mut positions = Vec::new();
     scene.positions(0, 1, &mut positions);
@@ -88,7 +90,8 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
             _ => Verdict::DoesNotHoldToday,
         },
         figure: format!(
-            "n = {depth}: level {} takes {loss:.2} times as long as the best, level {best}; level 0 {:.2} times, level n {:.2} times",
+            "n = {depth}: level {} takes {loss:.2} times as long as the best, level {best}; \
+             level 0 {:.2} times, level n {:.2} times",
             depth / 2,
             mean(0) / mean(best),
             mean(depth) / mean(best)

@@ -1,4 +1,4 @@
-//! Scenes at some steps, and a question in each: the frame of `near`, `close` and `when`.
+//! Lines of an experiment: a scene at some steps, with a query. Used by `near`, `close` and `when`.
 
 use super::{Form, Planned, every, scene, whole};
 use crate::contest::{Contender, Contest, Query};
@@ -6,7 +6,7 @@ use crate::method::Method;
 use crate::motion::Motion;
 use pliant_scenes::Scene;
 
-/// A scene at some steps, and what is asked there.
+/// A scene at some steps, and its query.
 pub(super) struct Line<Q> {
     name: &'static str,
     scene: &'static str,
@@ -17,7 +17,7 @@ pub(super) struct Line<Q> {
 }
 
 impl<Q> Line<Q> {
-    /// Two spheres.
+    /// The two spheres.
     pub(super) fn spheres(name: &'static str, asked: Q) -> Self {
         Self {
             name,
@@ -28,7 +28,7 @@ impl<Q> Line<Q> {
         }
     }
 
-    /// 27 spheres.
+    /// The 27 spheres.
     pub(super) fn crowd(name: &'static str, asked: Q) -> Self {
         Self {
             scene: "crowd",
@@ -38,7 +38,7 @@ impl<Q> Line<Q> {
         }
     }
 
-    /// A sheet that folds.
+    /// The sheet that folds.
     pub(super) fn cloth(name: &'static str, asked: Q) -> Self {
         Self {
             scene: "cloth",
@@ -48,7 +48,7 @@ impl<Q> Line<Q> {
         }
     }
 
-    /// The same at other steps.
+    /// The line at other steps.
     #[cfg(feature = "peers")]
     pub(super) fn at(self, steps: impl IntoIterator<Item = u32>) -> Self {
         Self {
@@ -57,7 +57,7 @@ impl<Q> Line<Q> {
         }
     }
 
-    /// The same with so many triangles a body in full form.
+    /// The line with another number of triangles a body in full form.
     #[cfg(feature = "peers")]
     pub(super) fn of(self, triangles: usize) -> Self {
         Self {
@@ -93,7 +93,7 @@ impl<Q> Line<Q> {
     }
 }
 
-/// A contest a line, of `methods` methods; in small form of the last two steps.
+/// Plans one contest of `methods` methods for each line. The small form has the last two steps.
 pub(super) fn planned<Q: 'static>(
     lines: Vec<Line<Q>>,
     form: Form,

@@ -1,7 +1,7 @@
-//! The experiments: which motion, which methods, and what is claimed.
+//! Experiments: which motion, which methods, and which claims.
 //!
-//! An experiment is a plan: contests, made one after the other because their motions are large, and then what follows from
-//! all of them. Each has a small form, for tests.
+//! An experiment is a plan: contests, made one after the other because their motions are large, and
+//! claims that follow from all of them. Each has a small form, for tests.
 
 mod all;
 mod bodies;
@@ -44,18 +44,18 @@ use crate::record::{Claim, ContestRecord, ExperimentRecord, Verdict, Window};
 use pliant::{Degree, Options, Update};
 use pliant_scenes::Scene;
 
-/// How large an experiment is made.
+/// Size of an experiment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// As in the paper, or larger.
+    /// Full size: as in the paper, or larger.
     Full,
-    /// A small form that takes seconds, for tests: it says nothing about speed.
+    /// Small size, which takes seconds, for tests: it says nothing about speed.
     Small,
 }
 
-/// A contest to be: its motion is computed when its turn comes.
+/// A contest to come. Its motion is computed when its turn comes.
 pub struct Planned {
-    /// Methods times steps: what one round is in progress.
+    /// Steps of one round, over all methods: a unit of progress.
     pub steps_a_round: u64,
     make: Box<dyn FnOnce() -> Contest>,
 }
@@ -70,18 +70,18 @@ impl Planned {
     }
 }
 
-/// One experiment.
+/// An experiment: contests and claims.
 pub struct Experiment {
-    /// As on the command line.
+    /// Name on the command line.
     pub name: &'static str,
-    /// One line for people.
+    /// Description in one line.
     pub about: &'static str,
     plan: fn(Form) -> Vec<Planned>,
     claims: fn(&[ContestRecord]) -> Vec<Claim>,
 }
 
 impl Experiment {
-    /// How many steps will be played by all methods together: the length of a progress bar.
+    /// Number of steps played by all methods together: the length of a progress bar.
     pub fn length(&self, form: Form, rounds: usize) -> u64 {
         (self.plan)(form)
             .iter()
@@ -89,14 +89,15 @@ impl Experiment {
             .sum()
     }
 
-    /// The motions of the contests, one after the other, each made anew when it is asked for: for pictures of them.
+    /// Motions of the contests, one after the other, computed when asked for. For pictures.
     pub fn motions(&self, form: Form) -> impl Iterator<Item = Motion> {
         (self.plan)(form)
             .into_iter()
             .map(|planned| (planned.make)().motion)
     }
 
-    /// Plays all contests. `progress` is told the contest at hand and the steps played.
+    /// Plays all contests. Calls `progress` with the name of the contest and the number of steps
+    /// played.
     pub fn run(
         &self,
         form: Form,
@@ -122,7 +123,7 @@ impl Experiment {
     }
 }
 
-// The methods by the names that tables use.
+// Names of methods in tables.
 
 const DEFAULT: &str = "pliant";
 const HYBRID: &str = "pliant, paper: hybrid";
@@ -186,12 +187,12 @@ fn contenders(labels: &[&'static str]) -> Vec<Contender> {
     labels.iter().map(|label| contender(label)).collect()
 }
 
-/// What is taken for true: no tree, and not ours.
+/// The truth: no tree, and not ours.
 fn truth() -> Box<dyn Method> {
     Box::new(Sweep::new(exact))
 }
 
-/// A scene that is known to exist.
+/// A scene by its name, which must exist.
 fn scene(name: &str, triangles: usize) -> Scene {
     Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).expect("the size is one of the scene's")
 }
@@ -209,7 +210,7 @@ fn window(name: &str, first: u32, last: u32) -> Window {
     }
 }
 
-/// What the window of [`whole`] is called.
+/// Name of the window that [`whole`] makes.
 const STEPS: &str = "all";
 
 /// One window of all steps, if there are any.
@@ -219,7 +220,7 @@ fn whole(steps: &[u32]) -> Vec<Window> {
         .collect()
 }
 
-/// The windows of a scene of 200 steps.
+/// Windows of a scene of 200 steps.
 fn windows() -> Vec<Window> {
     vec![
         window("easy", 1, 50),
@@ -247,7 +248,7 @@ fn on_scene(
     }
 }
 
-/// A claim that some factor is at least `wanted`; it holds weaker down to `least`.
+/// A claim that a factor is at least `wanted`. Down to `least` it holds weaker.
 fn factor_claim(claim: &str, factor: f64, wanted: f64, least: f64, figure: String) -> Claim {
     let verdict = match factor {
         factor if factor >= wanted => Verdict::Holds,

@@ -1,7 +1,9 @@
-//! What is near: vertices near triangles and edges near edges, of a simulation's step, beside the libraries of today with grown boxes.
+//! Candidates of a simulation step (vertices near triangles, edges near edges), beside libraries of
+//! today with grown boxes.
 //!
-//! Everything is asked of all bodies and of each with itself, as a solver does. *Margin m* is m mean lengths of an edge: two elements are
-//! found that are within it, each has a margin of half of it. *Swept*: margin 0, from each step the stated part of the way to the next one.
+//! All bodies and each with itself are asked, as a solver does. *Margin m* is m mean edge lengths:
+//! the largest gap of two elements, each grown by half of it. *Swept* is margin 0 along the stated
+//! part of the way to the next step.
 
 use super::lines::{Line, planned};
 use super::{
@@ -25,12 +27,12 @@ const COMPLETE: &str = "pliant, every box every step";
 const METHODS: [&str; 7] = [DEFAULT, F64, TWO_THREADS, COMPLETE, PARRY, OBVHS_1, OBVHS_4];
 const PEERS: [&str; 3] = [PARRY, OBVHS_1, OBVHS_4];
 
-/// What is near, or on the way.
+/// Margin or motion of a query.
 #[derive(Clone, Copy, Debug)]
 enum Asked {
-    /// So many mean lengths of an edge apart.
+    /// Margin in mean edge lengths.
     Margin(f64),
-    /// On this part of the way to the next step.
+    /// Motion over this part of the way to the next step.
     Swept(f32),
 }
 

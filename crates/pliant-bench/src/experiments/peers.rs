@@ -1,7 +1,8 @@
-//! Against the libraries of today, and against what nobody can go below: the scenes that the project's aims are stated on.
+//! Libraries of today, and lower bounds on time, on the scenes of the project's aims.
 //!
-//! Ratios are to the fastest of parry3d and obvhs (1 and 4 triangles a leaf) in the same contest. *Tree order* is the order that
-//! `World::vertex_order` hands out, so that a simulation can store its vertices that way; every method is given it then.
+//! Ratios refer to the fastest of parry3d and obvhs (1 and 4 triangles a leaf) in the same contest.
+//! *Tree order* is the order of vertices that `World::vertex_order` returns, in which a simulation
+//! can store them. Every method is given vertices in that order then.
 
 use super::{
     DEFAULT, Experiment, Form, OBVHS_1, OBVHS_4, PARRY, Planned, contender, every, factor_claim,
@@ -29,7 +30,7 @@ const FLOOR: &str = "floor: pass, true pairs, sort";
 
 const PEERS: [&str; 3] = [PARRY, OBVHS_1, OBVHS_4];
 
-/// One contest to be.
+/// A contest to come.
 struct Line {
     name: &'static str,
     scene: &'static str,
@@ -171,7 +172,7 @@ impl Line {
     }
 }
 
-/// A method of this experiment alone, or one of all experiments, by its name in tables.
+/// A method by its name in tables, of this experiment alone or of all.
 fn method(label: &'static str, steps: usize, query: Query) -> Contender {
     let floor = |decides| {
         let itself = query == Query::Itself;
@@ -195,7 +196,7 @@ fn method(label: &'static str, steps: usize, query: Query) -> Contender {
     }
 }
 
-/// The motion with vertices in the order that the library hands out.
+/// The motion with vertices in the library's order.
 fn in_tree_order(motion: Motion) -> Motion {
     let mut world = World::<f32>::new();
     let orders: Vec<Vec<u32>> = motion
@@ -211,7 +212,7 @@ fn in_tree_order(motion: Motion) -> Motion {
     motion.renumbered(&orders)
 }
 
-/// How many times faster the default is than the fastest peer is to be.
+/// Factors over the fastest peer that the default has to reach.
 const TARGETS: [(&str, &str, f64); 14] = [
     (SPHERES, EASY, 5.0),
     (SPHERES_IN_TREE_ORDER, EASY, 12.0),
@@ -229,7 +230,7 @@ const TARGETS: [(&str, &str, f64); 14] = [
     (LARGEST, DEEPEST, 4.0),
 ];
 
-/// Time of the first over the second, in a window: what it is to be at most, or at least.
+/// Bound on the time of one method over another, in a window.
 enum Bound {
     AtMost(f64),
     AtLeast(f64),
@@ -275,7 +276,7 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
                 &format!("{name}, {window}: {wanted} times faster than the fastest peer"),
                 factor,
                 wanted,
-                // An aim is reached or not.
+                // An aim is reached or missed, nothing between.
                 wanted,
                 figure,
             ),

@@ -1,22 +1,24 @@
-//! The application's part of the third experiment: "a simple collision response method was applied to prevent the bodies
-//! passing through each other".
+//! Collision response of experiment 3, the application's part.
 //!
-//! A body is pushed away from every body that it meets, along the line of their centres, by a length that grows with the pairs
-//! of triangles found; and drawn back to where the scene wants it. The response is computed once, with our method, and its
-//! displacements are part of the motion: every method replays the same shapes.
+//! "A simple collision response method was applied to prevent the bodies passing through each
+//! other" (paper). A body is pushed away from every body that it meets, along the line of their
+//! centres. The length grows with the number of pairs of triangles. It is then drawn back to its
+//! place in the scene. The response is computed once, with our method, as part of the motion: every
+//! method replays the same shapes.
 
 use crate::motion::{Motion, Placed};
 use pliant::{Options, Selection, World};
 use pliant_scenes::Scene;
 use std::collections::BTreeMap;
 
-/// How far a body is pushed for one pair of triangles, in units of the scene, and at most for one body that it meets.
+/// Push for each pair of triangles, and the largest push from one other body; in units of the
+/// scene.
 const PUSH: (f64, f64) = (0.0004, 0.03);
 
-/// What is left of a displacement after a step without contact.
+/// Fraction of a displacement that remains after a step without contact.
 const DRAWN_BACK: f64 = 0.97;
 
-/// Some steps of a scene with the response to all steps before them.
+/// Motion of a scene at some steps, with the response to all steps before.
 pub(super) fn with_response(scene: &Scene, steps: &[u32]) -> Motion {
     let mut motion = Motion::of_scene(scene, []);
     motion.name = format!("{} with response", scene.name());

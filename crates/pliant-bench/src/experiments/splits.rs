@@ -1,6 +1,9 @@
-//! "There is no significant difference between these two ways of choosing the values for the split planes" (paper, 3.2); "the
-//! average collision detection time per time step is typically between zero to 10 percent better for the mesh connectivity
-//! trees" (4). And the balanced tree, which the paper does not have.
+//! Partitions of the initial tree: centre, mean, mesh connectivity, and balanced, which the paper
+//! does not have.
+//!
+//! "There is no significant difference between these two ways of choosing the values for the split
+//! planes" (paper, 3.2). "The average collision detection time per time step is typically between
+//! zero to 10 percent better for the mesh connectivity trees" (4).
 
 use super::{
     DEFAULT, Experiment, Form, HYBRID, Planned, contender, every, on_scene, ours, scene, titles,

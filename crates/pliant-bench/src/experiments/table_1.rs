@@ -1,4 +1,5 @@
-//! Table 1 of the paper: the two spheres at seven sizes, at first contact and at the worst step; then on to sizes of today.
+//! Table 1 of the paper: two spheres at seven sizes, at first contact and at the worst step; and
+//! larger sizes of today.
 
 use super::{
     DEFAULT, Experiment, Form, HYBRID, Planned, contenders, every, on_scene, scene, titles, window,
@@ -14,8 +15,10 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     claims,
 };
 
-/// Faces a body, and the paper's milliseconds at first and at worst contact, and its intersections there, on a Pentium III at
-/// 550 MHz.
+/// The paper's table: faces a body, milliseconds at first and at worst contact, and intersections
+/// there.
+///
+/// Measured on a Pentium III at 550 MHz.
 const PAPER: [(usize, f64, f64, usize); 7] = [
     (1280, 2.0, 4.0, 138),
     (5120, 6.0, 15.0, 562),
@@ -30,7 +33,7 @@ const METHODS: [&str; 2] = [HYBRID, DEFAULT];
 
 fn plan(form: Form) -> Vec<Planned> {
     let sizes: Vec<(usize, Vec<u32>)> = if form == Form::Full {
-        // The sizes of today at some steps only, first contact and the end among them.
+        // Today's sizes at a few steps only, first contact and the end among them.
         let today =
             [327_680, 1_310_720].map(|triangles| (triangles, vec![30, 60, 61, 100, 150, 175, 200]));
         PAPER
@@ -56,7 +59,7 @@ fn plan(form: Form) -> Vec<Planned> {
         .collect()
 }
 
-/// Milliseconds at the first contact and at the worst step, and the pairs there.
+/// Milliseconds at the first contact and at the worst step, and the number of pairs there.
 fn row(contest: &ContestRecord, method: &str) -> Option<(f64, f64, usize)> {
     let method = contest.method(method)?;
     let both = |step: usize| {
@@ -95,7 +98,7 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
             }
         }
     }
-    // time = a faces^b: b from the smallest and the largest size.
+    // The model is time = a faces^b, with b from the smallest and the largest size.
     for method in METHODS {
         let worst = |contest: &ContestRecord| {
             row(contest, method).map(|(_, worst, _)| (contest.triangles as f64, worst))
@@ -117,7 +120,11 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
             claims.push(Claim {
                 claim: format!("worst time grows roughly linearly with the faces ({method})"),
                 verdict,
-                figure: format!("as faces to the power {exponent:.2}, from {few} to {many} (the paper's own table: {:.2})", paper_exponent()),
+                figure: format!(
+                    "as faces to the power {exponent:.2}, from {few} to {many} \
+                     (the paper's own table: {:.2})",
+                    paper_exponent()
+                ),
             });
         }
     }

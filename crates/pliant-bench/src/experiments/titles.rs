@@ -1,18 +1,19 @@
-//! Names of the experiments, and what they are about: a build without the feature `peers` says what there is, though it has not
-//! those that other libraries take part in.
+//! Names and descriptions of all experiments, also in a build without the feature `peers`.
+//!
+//! Such a build lists experiments with other libraries, though it cannot run them.
 
-/// What an experiment is called.
+/// Name and description of an experiment.
 #[derive(Clone, Copy, Debug)]
 pub struct Title {
-    /// As on the command line.
+    /// Name on the command line.
     pub name: &'static str,
-    /// One line for people.
+    /// Description in one line.
     pub about: &'static str,
     /// Whether other libraries take part: only a build with the feature `peers` has it.
     pub with_peers: bool,
 }
 
-/// All there are, in the order in which `all` runs them, whether this build has them or not.
+/// All experiments in the order of `all`, whether or not this build has them.
 pub const TITLES: [Title; 14] = [
     EXPERIMENT_1,
     TABLE_1,

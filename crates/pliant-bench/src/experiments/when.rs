@@ -1,8 +1,9 @@
-//! When vertices meet triangles and edges meet edges on their way to the next step, beside what it costs to find those that could, and beside
-//! the question that needs no way: which triangles intersect now.
+//! Impacts on the way to the next step, beside the candidates for them, and beside intersections
+//! now.
 //!
-//! Everything is asked of all bodies and of each with itself, as a simulator does; *whole* is the way to the next step, *tenth* its first tenth.
-//! What a candidate costs is the time of all impacts less that of showing all candidates to a visitor who counts them, over their number.
+//! All bodies and each with itself are asked, as a simulator does. *Whole* is the way to the next
+//! step, *tenth* its first tenth. The cost of a candidate is the time of all impacts minus the time
+//! of a visitor who counts candidates, over their number.
 
 use super::lines::{Line, planned};
 use super::{DEFAULT, Experiment, Form, Planned, STEPS, titles};
@@ -19,7 +20,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     claims,
 };
 
-/// All impacts; candidates counted; the first impact; all intersections now: in either precision.
+/// Queries: all impacts, counted candidates, first impact, intersections now. In single precision.
 const SINGLE: [&str; 4] = [
     DEFAULT,
     "pliant, candidates",
@@ -34,7 +35,7 @@ const DOUBLE: [&str; 4] = [
 ];
 
 fn plan(form: Form) -> Vec<Planned> {
-    // With how much of the way to the next step.
+    // Each with the part of the way to the next step.
     let lines = vec![
         Line::spheres("two spheres, whole", 1.0),
         Line::spheres("two spheres, tenth", 0.1),
@@ -48,7 +49,7 @@ fn plan(form: Form) -> Vec<Planned> {
 
 fn contest(line: &Line<f32>, form: Form) -> Contest {
     let (scene, motion) = line.played(form);
-    // In a tenth of a step of few triangles nothing meets.
+    // In a tenth of a step nothing meets if there are few triangles.
     let part = if form == Form::Small { 1.0 } else { line.asked };
     let motion = motion.on_the_way(&scene, part);
     let mut methods = Vec::from(contenders::<f32>(SINGLE));
@@ -96,7 +97,7 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
     claims
 }
 
-/// What deciding costs, hits included: nothing if somebody was wrong or had nothing to do.
+/// Cost of deciding a candidate, hits included. `None` if a method was wrong or had nothing to do.
 fn nanoseconds_a_candidate(
     contest: &ContestRecord,
     impacts: &str,

@@ -1,6 +1,6 @@
-//! Boxes along the axes, as the older methods have them.
+//! Axis-aligned bounding boxes of the older methods.
 
-/// A closed box.
+/// A closed axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Aabb {
     pub(crate) lo: [f32; 3],
@@ -8,13 +8,13 @@ pub(crate) struct Aabb {
 }
 
 impl Aabb {
-    /// Holds nothing; merging with it changes nothing.
+    /// The empty box: merging with it changes nothing.
     pub(crate) const EMPTY: Self = Self {
         lo: [f32::INFINITY; 3],
         hi: [f32::NEG_INFINITY; 3],
     };
 
-    /// The smallest box around points.
+    /// Smallest box around points.
     pub(crate) fn of(points: &[[f32; 3]]) -> Self {
         points.iter().fold(Self::EMPTY, |hull, &point| {
             hull.merge(&Self {
@@ -24,7 +24,7 @@ impl Aabb {
         })
     }
 
-    /// The smallest box that holds both.
+    /// Smallest box that holds both.
     #[inline]
     pub(crate) fn merge(&self, other: &Self) -> Self {
         Self {
@@ -33,7 +33,7 @@ impl Aabb {
         }
     }
 
-    /// What both hold; a box whose `lo` is above its `hi` if there is nothing.
+    /// Intersection of two boxes. If it is empty, `lo` is above `hi` on some axis.
     #[inline]
     pub(crate) fn overlap(&self, other: &Self) -> Self {
         Self {
@@ -42,7 +42,7 @@ impl Aabb {
         }
     }
 
-    /// Touching counts.
+    /// Whether two boxes overlap; touching counts.
     #[inline]
     pub(crate) fn overlaps(&self, other: &Self) -> bool {
         (0..3).all(|axis| self.lo[axis] <= other.hi[axis] && other.lo[axis] <= self.hi[axis])

@@ -1,14 +1,15 @@
-//! How far two bodies are apart, by the boxes of triangles of the one against those of the other: no tree. It is the truth.
+//! Distance of two bodies without a tree, by comparing boxes of triangles: the truth for that
+//! query.
 //!
-//! Two corners that are near each other bound the distance first; of either body only triangles are looked at whose boxes are no further
-//! from the box of the other body.
+//! Two corners near each other give a first bound. Then only triangles whose boxes are within the
+//! bound of the other body's box are compared.
 
 use super::aabb::Aabb;
 use super::plain_distance::of_triangles;
 use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};
 
-/// The first body and the second.
+/// Distance query on the first two bodies.
 #[derive(Default)]
 pub struct AllBoxes {
     triangles: Vec<Vec<[u32; 3]>>,
@@ -79,18 +80,18 @@ impl Method for AllBoxes {
     }
 }
 
-/// The square of a distance, a little larger than that, so that nothing is passed over by rounding.
+/// Square of a distance, rounded up a little, so that rounding makes no pair pass unseen.
 fn limit(distance: f64) -> f64 {
     distance * distance * 1.0001
 }
 
-/// The square of how far two points are apart.
+/// Square of the distance of two points.
 fn square(p: [f32; 3], q: [f32; 3]) -> f64 {
     let on = |axis: usize| (f64::from(p[axis]) - f64::from(q[axis])).powi(2);
     on(0) + on(1) + on(2)
 }
 
-/// The square of the gap of two boxes.
+/// Square of the gap between two boxes.
 fn gap_square(a: &Aabb, b: &Aabb) -> f64 {
     let on = |axis: usize| {
         let below = f64::from(b.lo[axis]) - f64::from(a.hi[axis]);
@@ -100,7 +101,7 @@ fn gap_square(a: &Aabb, b: &Aabb) -> f64 {
     on(0) + on(1) + on(2)
 }
 
-/// The corner that is nearest to a point.
+/// Corner nearest to a point.
 fn nearest_corner(triangles: &[[[f32; 3]; 3]], to: [f32; 3]) -> Option<[f32; 3]> {
     let corners = triangles.as_flattened().iter().copied();
     corners.min_by(|&p, &q| square(p, to).total_cmp(&square(q, to)))

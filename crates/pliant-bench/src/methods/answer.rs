@@ -1,25 +1,25 @@
-//! What a query collects: the same for every method that proposes its candidates one by one.
+//! Collector of a query's pairs, for every method that proposes its candidates one by one.
 
 use crate::decision::{Decision, Triangle};
 use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};
 use std::ops::ControlFlow;
 
-/// How much of the answer is wanted.
+/// Extent of the answer that a query wants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Wanted {
-    /// Every pair.
+    /// All pairs.
     All,
     /// One pair, whichever comes first.
     First,
 }
 
-/// Decides candidates, keeps the pairs that intersect, says when there are enough.
+/// Decides candidates, keeps the pairs that intersect, and stops the search when there are enough.
 pub(super) struct Answer {
     decision: Decision,
     wanted: Wanted,
     pairs: Vec<Pair>,
-    /// The method adds its boxes and box tests; decisions are counted here.
+    /// Decisions are counted here; the method adds its boxes and box tests.
     pub(super) counters: Counters,
 }
 
@@ -33,13 +33,13 @@ impl Answer {
         }
     }
 
-    /// Forgets the pairs of the query before.
+    /// Clears the pairs of the last query.
     pub(super) fn begin(&mut self, wanted: Wanted) {
         self.wanted = wanted;
         self.pairs.clear();
     }
 
-    /// Decides a candidate. Breaks when nothing more is wanted.
+    /// Decides a candidate. Breaks when no more pairs are wanted.
     #[inline]
     pub(super) fn candidate(&mut self, pair: Pair, a: &Triangle, b: &Triangle) -> ControlFlow<()> {
         self.counters.decisions += 1;
@@ -53,7 +53,7 @@ impl Answer {
         }
     }
 
-    /// The pairs in order. Keys are whole numbers of 128 bits: one comparison, not four.
+    /// All pairs, sorted. A key is a whole number of 128 bits: one comparison instead of four.
     pub(super) fn sorted(&mut self) -> &[Pair] {
         self.pairs.sort_unstable_by_key(|pair| {
             pair.iter()
@@ -67,7 +67,7 @@ impl Answer {
     }
 }
 
-/// A method that proposes candidates one by one; what it collects and when it stops is the same for all of them.
+/// A method that proposes candidates one by one. All such methods collect and stop in the same way.
 pub(super) trait Proposer {
     /// See [`Method::name`].
     fn name(&self) -> String;
@@ -77,9 +77,9 @@ pub(super) trait Proposer {
     fn step(&mut self, shapes: &[Shape<'_>]);
     /// Proposes pairs of triangles of different bodies to the answer, until it breaks.
     fn between_bodies(&mut self) -> ControlFlow<()>;
-    /// Proposes pairs of triangles of one body, of all bodies.
+    /// Proposes pairs of triangles within each body.
     fn within_bodies(&mut self) -> ControlFlow<()>;
-    /// Where candidates go.
+    /// Collector of the candidates.
     fn answer(&mut self) -> &mut Answer;
 }
 

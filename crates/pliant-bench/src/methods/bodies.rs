@@ -1,11 +1,11 @@
-//! What the older methods have in common: their own copy of all bodies, boxes, and brute force over pairs of bodies.
+//! Bodies of the older methods: a copy of all shapes, boxes, and brute force over pairs of bodies.
 
 use super::aabb::Aabb;
 use super::triangle_box::triangle_box;
 use crate::decision::Triangle;
 use crate::motion::{BodyMesh, Shape};
 
-/// All bodies in the world, in the shape of the last step.
+/// World positions and triangles of all bodies, in the shape of the last step.
 #[derive(Debug, Default)]
 pub(crate) struct Bodies {
     pub(crate) triangles: Vec<Vec<[u32; 3]>>,
@@ -32,7 +32,7 @@ impl Bodies {
         all
     }
 
-    /// Copies the shapes and makes the boxes of the bodies.
+    /// Copies the shapes, and makes the boxes of the bodies.
     pub(crate) fn take_over(&mut self, shapes: &[Shape<'_>]) {
         for ((positions, own_box), shape) in
             self.positions.iter_mut().zip(&mut self.boxes).zip(shapes)
@@ -55,7 +55,7 @@ impl Bodies {
         )
     }
 
-    /// Pairs of bodies whose boxes overlap, the smaller first.
+    /// Pairs of bodies whose boxes overlap, the smaller number first.
     pub(crate) fn overlapping_pairs(&self) -> impl Iterator<Item = [usize; 2]> {
         let count = self.boxes.len();
         (0..count)
@@ -64,7 +64,7 @@ impl Bodies {
     }
 }
 
-/// Whether two triangles of one body have a vertex in common.
+/// Whether two triangles of one body share a vertex.
 #[inline]
 pub(crate) fn share_a_vertex(a: [u32; 3], b: [u32; 3]) -> bool {
     a.iter().any(|vertex| b.contains(vertex))

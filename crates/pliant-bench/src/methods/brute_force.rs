@@ -1,8 +1,9 @@
-//! Every pair of triangle boxes in the region where the boxes of two bodies overlap, then the decision; every pair of a body
-//! with itself. The floor: whatever is slower than this is not worth having.
+//! Brute force over boxes of triangles: the floor that every other method should beat.
 //!
-//! It is the floor well built: boxes are made once a query and body, and compared eight at a time, each axis a row of eight
-//! numbers, without a branch until all eight are known.
+//! Compares every pair of boxes in the region where two bodies overlap, and every pair within a
+//! body, then decides. Boxes are made once per query and body. They are compared eight at a time,
+//! in structure-of-arrays form: each axis is a row of eight numbers. There is no branch until all
+//! eight are known.
 
 use super::aabb::Aabb;
 use super::answer::{Answer, Proposer, self_pair};
@@ -13,7 +14,7 @@ use crate::decision::Decision;
 use crate::motion::{BodyMesh, Shape};
 use std::ops::ControlFlow;
 
-/// All pairs of boxes, no order, no tree.
+/// Brute force over all pairs of boxes, without order or tree.
 pub struct BruteForce {
     bodies: Bodies,
     regions: [Region; 2],
@@ -22,7 +23,7 @@ pub struct BruteForce {
 }
 
 impl BruteForce {
-    /// Brute force over boxes with this decision.
+    /// Brute force with this triangle test.
     pub fn new(decision: Decision) -> Self {
         Self {
             bodies: Bodies::default(),
@@ -103,9 +104,10 @@ impl Proposer for BruteForce {
     }
 }
 
+/// Number of boxes in a row, which are compared together.
 const WIDTH: usize = 8;
 
-/// Eight boxes side by side: for each axis, their lower sides and their upper sides. Missing ones are empty.
+/// Eight boxes side by side: lower and upper sides for each axis. Missing boxes are empty.
 #[derive(Clone, Copy, Debug)]
 struct Row {
     lo: [[f32; WIDTH]; 3],
@@ -127,7 +129,7 @@ impl Row {
         row
     }
 
-    /// The lanes whose boxes overlap `other`; touching counts.
+    /// Lanes whose boxes overlap `other`; touching counts.
     #[inline]
     fn overlapping(&self, other: &Aabb) -> [bool; WIDTH] {
         std::array::from_fn(|lane| {
@@ -146,7 +148,7 @@ fn fill(rows: &mut Vec<Row>, boxes: &[Aabb]) {
     rows.extend(boxes.chunks(WIDTH).map(Row::of));
 }
 
-/// Visits the places, from `start` on, of the boxes that overlap `other`.
+/// Visits the boxes from place `start` on that overlap `other`.
 #[inline]
 fn overlapping(
     rows: &[Row],

@@ -1,8 +1,9 @@
-//! obvhs where meshes change: its own insertion and removal of leaves, one triangle each.
+//! obvhs on changing meshes: its own insertion and removal of leaves, one triangle each.
 //!
-//! A triangle that comes is inserted, one that goes is removed, as the library does it (`insert_primitive`, `remove_primitive`); one that
-//! gets other corners only gets another box. A step writes the boxes of all leaves and calls `refit_all`, as where meshes stay
-//! (`obvhs.rs`). The tree is not laid out anew: places of leaves are what insertion makes of them.
+//! A new triangle is inserted and an old one removed, by the library's `insert_primitive` and
+//! `remove_primitive`. A triangle with other corners only gets another box. A step writes the boxes
+//! of all leaves and calls `refit_all`, as on unchanging meshes (`obvhs.rs`). The layout of the
+//! tree is never renewed: leaves stay where insertion puts them.
 
 use super::bodies::share_a_vertex;
 use super::triangle_box::triangle_box;
@@ -32,7 +33,7 @@ struct Body {
 }
 
 impl ChangingObvhs {
-    /// The library's trees with one triangle a leaf, and this decision.
+    /// Trees of the library with one triangle a leaf, and this triangle test.
     pub fn new(decision: Decision) -> Self {
         Self {
             decision,
@@ -68,7 +69,7 @@ impl Body {
         }
     }
 
-    /// Follows what has happened to the triangles.
+    /// Applies the changes of the triangles to the tree.
     fn follow(&mut self, triangles: &[[u32; 3]], positions: &[[f32; 3]]) {
         const EMPTY: [u32; 3] = ChangingMesh::EMPTY;
         self.triangles.resize(triangles.len(), EMPTY);
@@ -160,7 +161,7 @@ impl Method for ChangingObvhs {
 }
 
 impl ChangingObvhs {
-    /// Two bodies, or one and itself.
+    /// Visits pairs of two bodies, or of one body with itself.
     fn meet(&mut self, a: usize, b: usize) {
         let Self {
             bodies,

@@ -1,8 +1,10 @@
-//! What no method can go below: the vertices read once, and nothing but the true pairs decided and sorted.
+//! Lower bound on the time of any method: one pass over the vertices, and the true pairs decided
+//! and sorted.
 //!
-//! It is told the answers, by another method that plays the first round for it. From then on a step is one pass over all vertices
-//! that keeps the smallest and the largest coordinates, as wide as the machine reads; and, if asked for, the frozen decision of
-//! the pairs that do intersect, in no order, and sorting them.
+//! Another method plays the first round for it, and tells it the answers. From then on, a step is
+//! one pass over all vertices that finds the smallest and largest coordinates, as wide as the
+//! machine reads. If asked for, it also decides the intersecting pairs by the frozen test, in
+//! random order, and sorts them.
 
 use crate::decision::exact;
 use crate::method::{Counters, Method, Pair};
@@ -10,19 +12,19 @@ use crate::motion::{BodyMesh, Shape};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x8};
 
-/// A yardstick, not a method: it knows the answers beforehand.
+/// A yardstick rather than a method: it knows the answers beforehand.
 pub struct Floor {
-    /// Who finds the answers, in the first round.
+    /// Method that finds the answers in the first round.
     teller: Box<dyn Method>,
     /// Whether pairs are of bodies with themselves.
     itself: bool,
-    /// Whether pairs are decided and sorted, or only vertices read.
+    /// Whether pairs are decided and sorted, or only vertices are read.
     decides: bool,
-    /// How many steps a round has.
+    /// Number of steps in a round.
     steps: usize,
-    /// The pairs of each step, shuffled, as far as the first round has come.
+    /// Pairs of each step in random order, as far as the first round has come.
     known: Vec<Vec<Pair>>,
-    /// Steps played.
+    /// Number of steps played.
     played: usize,
     triangles: Vec<Vec<[u32; 3]>>,
     pairs: Vec<Pair>,
@@ -31,8 +33,10 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// A floor for `steps` steps in every round, which `teller` knows the answers to; of bodies with themselves if `itself`; only
-    /// the pass over the vertices, unless it `decides`.
+    /// A floor for `steps` steps in every round, whose answers `teller` finds.
+    ///
+    /// Pairs are of bodies with themselves if `itself`. Without `decides` there is only the pass
+    /// over the vertices.
     pub fn new(teller: impl Method + 'static, steps: usize, itself: bool, decides: bool) -> Self {
         Self {
             teller: Box::new(teller),
@@ -48,7 +52,7 @@ impl Floor {
         }
     }
 
-    /// The first round: the answer is found, and put out of order.
+    /// Finds the answer of a step in the first round, and shuffles it.
     fn learn(&mut self, shapes: &[Shape<'_>]) {
         self.teller.step(shapes);
         let mut pairs = if self.itself {
@@ -94,7 +98,7 @@ impl Method for Floor {
             self.counters.boxes += 1;
         }
         if !self.decides {
-            // The answer is asked for in the first round only; copying it is no work of a step.
+            // Only the first round asks for the answer. Copying it is no work of a step.
             if self.played <= self.steps {
                 self.pairs.clone_from(&self.known[step]);
                 self.pairs.sort_unstable();
@@ -108,7 +112,7 @@ impl Method for Floor {
         self.keys.clear();
         for &[body_a, a, body_b, b] in &self.known[step] {
             if exact(&corners(body_a, a), &corners(body_b, b)) {
-                // Bodies and triangles of all scenes fit.
+                // The numbers of all scenes fit.
                 self.keys.push(
                     u64::from(body_a) << 56
                         | u64::from(a) << 32
@@ -148,7 +152,7 @@ impl Method for Floor {
     }
 }
 
-/// The smallest and the largest coordinates.
+/// Smallest and largest coordinates.
 #[inline(always)]
 fn extent<I: Simd>(i: I, positions: &[[f32; 3]]) -> [[f32; 3]; 2] {
     let (mut lo, mut hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);

@@ -1,4 +1,4 @@
-//! One file or folder a method.
+//! Methods of collision detection, one file or folder each.
 
 mod aabb;
 mod all_boxes;

@@ -1,11 +1,16 @@
-//! Vertices near triangles and edges near edges, for methods that find pairs of triangles; and by a sweep alone, which is the truth.
+//! Elements within a margin (vertices near triangles, edges near edges) from pairs of triangles.
 //!
-//! Every vertex and every edge belongs to one of its triangles, the first that has it. A pair of triangles whose grown boxes overlap is
-//! asked for its vertices against triangles and edges against edges, those that belong to them: each pair of elements comes up once.
-//! Rows and numbers of edges are the library's. Gaps are compared in `f64`, in which differences of `f32` that are not very
-//! unlike are exact. Where elements themselves are to be close, and not their boxes, those that are left are measured in plain `f64`, and what
-//! is too near to the limit for that is decided by the library's reference, which is exact and has no tree. Whether elements meet on their
-//! way is always left to that.
+//! For methods that find pairs of triangles; and by a sweep alone, which is the truth. Every vertex
+//! and edge belongs to the first triangle that has it. Two triangles whose grown boxes overlap
+//! compare the elements that belong to them, so each pair of elements comes up once. Gaps are
+//! compared in `f64`, in which differences of similar `f32` are exact. Rows and edge numbers are
+//! the library's.
+//!
+//! | sought | decided by |
+//! |---|---|
+//! | boxes within the margin | their gap in `f64` |
+//! | elements within a distance | plain `f64`; near the limit the exact reference |
+//! | elements that meet during the motion | the exact reference, which has no tree |
 
 use super::aabb::Aabb;
 use super::plain_distance::{of_point_and_triangle, of_segments};
@@ -14,7 +19,7 @@ use crate::motion::{BodyMesh, Shape};
 use pliant::reference::{self, Moving};
 use std::collections::BTreeMap;
 
-/// The hull of some vertices, at both ends of a motion if there is one.
+/// Box of some vertices, over both ends of the motion if there is one.
 #[inline]
 pub(super) fn swept_box(positions: &[[f32; 3]], ends: &[[f32; 3]], corners: &[u32]) -> Aabb {
     let mut hull = Aabb::EMPTY;
@@ -31,36 +36,36 @@ pub(super) fn swept_box(positions: &[[f32; 3]], ends: &[[f32; 3]], corners: &[u3
     hull
 }
 
-/// What is looked for among elements whose boxes are near each other.
+/// Relation that is sought, among elements whose boxes are near each other.
 #[derive(Clone, Copy, Debug)]
 enum Sought {
-    /// All of them.
+    /// Every such pair.
     Near,
-    /// Those that are at most so far apart themselves.
+    /// Pairs of elements at most this far apart.
     CloserThan(f64),
-    /// Those that meet on their way.
+    /// Pairs of elements that meet during the motion.
     Meeting,
 }
 
-/// How what was found is told.
+/// Form of the answer.
 #[derive(Clone, Copy, Debug)]
 enum Told {
     /// All rows.
     Rows,
-    /// One row of two numbers: how many of either kind there are.
+    /// One row of two numbers: the count of each kind.
     Count,
-    /// The row of the earliest meeting, if there is one.
+    /// Row of the earliest contact, if there is one.
     Earliest,
 }
 
-/// The vertices, edges and triangles of all bodies, and what is found near what.
+/// Vertices, edges and triangles of all bodies, and the pairs found.
 pub(super) struct Elements {
     radius: f64,
     sought: Sought,
     bodies: Vec<Body>,
     /// Vertices near triangles, then edges near edges.
     found: [Vec<Pair>; 2],
-    /// When it is, its kind, and which they are, of those that meet.
+    /// Time, kind and row of the earliest contact.
     earliest: Option<(f64, usize, Pair)>,
     keys: Vec<u64>,
     all: Vec<Pair>,
@@ -70,12 +75,12 @@ pub(super) struct Elements {
 struct Body {
     triangles: Vec<[u32; 3]>,
     edges: Vec<[u32; 2]>,
-    /// Which of its vertices belong to a triangle, and the numbers of the edges that do.
+    /// For each triangle, which of its vertices belong to it, and the numbers of the edges that do.
     owned: Vec<([bool; 3], [Option<u32>; 3])>,
     vertex_boxes: Vec<Aabb>,
     edge_boxes: Vec<Aabb>,
     triangle_boxes: Vec<Aabb>,
-    /// Where vertices are now, and at the end of their way, unless boxes are all that counts.
+    /// Positions of vertices now and at the end of the motion; empty where boxes suffice.
     positions: [Vec<[f64; 3]>; 2],
 }
 
@@ -117,7 +122,7 @@ impl Body {
         corners.map(|corner| self.positions[0][corner as usize])
     }
 
-    /// Where corners are now, and at the end of their way.
+    /// Positions of corners now, and at the end of the motion.
     fn way<const C: usize>(&self, corners: [u32; C]) -> [[[f64; 3]; C]; 2] {
         let [_, ends] = &self.positions;
         [
@@ -128,7 +133,7 @@ impl Body {
 }
 
 impl Elements {
-    /// With this margin round each.
+    /// Elements with this margin round each.
     pub(super) fn within(radius: f64) -> Self {
         Self {
             radius,
@@ -142,8 +147,8 @@ impl Elements {
         }
     }
 
-    /// By how much boxes of triangles are to be larger on every side so that no candidate is missed: a little more than the margin, as
-    /// they are rounded.
+    /// Growth of boxes of triangles on every side that misses no candidate: a little more than the
+    /// margin, as boxes are rounded.
     #[cfg_attr(not(feature = "peers"), expect(dead_code, reason = "peers ask it"))]
     pub(super) fn grown_by(&self) -> f32 {
         (self.radius * 1.001) as f32
@@ -184,7 +189,7 @@ impl Elements {
         self.earliest = None;
     }
 
-    /// Finds what is near among the elements that belong to two triangles, of two bodies in order or of one.
+    /// Compares the elements that belong to two triangles, of two bodies in order or of one.
     #[inline]
     #[cfg_attr(not(feature = "peers"), expect(dead_code, reason = "peers ask it"))]
     pub(super) fn meet(&mut self, bodies: [usize; 2], triangles: [u32; 2]) {
@@ -305,7 +310,7 @@ impl Elements {
         }
     }
 
-    /// Everything that was found, either kind sorted: as keys of 64 bits, if there are not too many elements for that.
+    /// All pairs found, each kind sorted: by keys of 64 bits, if numbers of elements fit.
     pub(super) fn sorted(&mut self) -> &[Pair] {
         let elements = self.bodies.iter();
         let elements = elements.map(|it| it.edges.len().max(it.triangles.len()));
@@ -350,7 +355,7 @@ fn alone<'b>(triangles: &'b [[u32; 3]], positions: &'b [[f64; 3]]) -> Moving<'b,
     }
 }
 
-/// A body of one triangle, perhaps degenerate, that moves.
+/// A moving body of one triangle, perhaps degenerate.
 fn on_the_way<'b, const C: usize>(
     triangles: &'b [[u32; 3]],
     [start, end]: &'b [[[f64; 3]; C]; 2],
@@ -361,29 +366,29 @@ fn on_the_way<'b, const C: usize>(
     }
 }
 
-/// Whether something that was measured in `f64` is at most so far apart, if that is certain.
+/// Whether a length measured in `f64` is at most `distance`; `None` if rounding leaves it open.
 #[inline]
 fn is_at_most(apart: f64, distance: f64) -> Option<bool> {
     ((apart - distance).abs() > 1e-6 * distance).then_some(apart <= distance)
 }
 
-/// Whether the gap of two boxes is at most so much on every axis.
+/// Whether the gap of two boxes is at most `gap` on every axis.
 #[inline]
 fn are_within(a: &Aabb, b: &Aabb, gap: f64) -> bool {
     let is_near = |low: f32, high: f32| f64::from(low) - f64::from(high) <= gap;
     (0..3).all(|axis| is_near(a.lo[axis], b.hi[axis]) & is_near(b.lo[axis], a.hi[axis]))
 }
 
-/// Everything near everything by a sweep along one axis: no tree, and no pair of triangles.
+/// Sort and sweep along one axis over all elements, without a tree or pairs of triangles.
 pub struct NearSweep {
     elements: Elements,
     told: Told,
-    /// Where each begins on the axis, its body and its number: vertices, edges, triangles.
+    /// Start on the axis, body and number, for vertices, edges and triangles.
     begins: [Vec<(f32, usize, u32)>; 3],
 }
 
 impl NearSweep {
-    /// With this margin round each vertex, edge and triangle.
+    /// Pairs within this margin round each vertex, edge and triangle.
     pub fn new(radius: f64) -> Self {
         Self {
             elements: Elements::within(radius),
@@ -392,21 +397,22 @@ impl NearSweep {
         }
     }
 
-    /// Elements that are themselves at most so far apart.
+    /// Pairs of elements at most this far apart.
     pub fn closer_than(distance: f64) -> Self {
         let mut all = Self::new(distance / 2.0);
         all.elements.sought = Sought::CloserThan(distance);
         all
     }
 
-    /// Elements that meet on their way.
+    /// Pairs of elements that meet during the motion.
     pub fn meeting() -> Self {
         let mut all = Self::new(0.0);
         all.elements.sought = Sought::Meeting;
         all
     }
 
-    /// Of what meets only the earliest; of several at one time a vertex and a triangle rather than edges, the first in order.
+    /// Reports only the earliest contact. Ties: vertex and triangle before edges, then the first in
+    /// order.
     #[must_use]
     pub fn earliest(self) -> Self {
         Self {
@@ -415,7 +421,8 @@ impl NearSweep {
         }
     }
 
-    /// Only how many there are: one row of two numbers, of vertices and triangles and of edges, and two zeros.
+    /// Reports only counts: one row of the number of vertices and triangles, the number of edges,
+    /// and two zeros.
     #[must_use]
     pub fn counted(self) -> Self {
         Self {
@@ -457,7 +464,7 @@ impl Method for NearSweep {
             list.clear();
             for (place, body) in elements.bodies.iter().enumerate() {
                 let boxes = [&body.vertex_boxes, &body.edge_boxes, &body.triangle_boxes][kind];
-                // Vertices that no triangle uses make none.
+                // Vertices that no triangle uses make no pair.
                 let is_used =
                     |number: u32| kind > 0 || body.edges.iter().flatten().any(|&end| end == number);
                 let all_used = body
@@ -479,7 +486,8 @@ impl Method for NearSweep {
             let boxes = [&body.vertex_boxes, &body.edge_boxes, &body.triangle_boxes][kind];
             f64::from(boxes[number as usize].hi[0]) + reach
         };
-        // Of two that are near each other on the axis, one begins first: from there the other begins before that one ends.
+        // Of two elements near each other on the axis, one begins first. From there, the other
+        // begins before it ends.
         let mut next = 0;
         for &(from, a, vertex) in vertices {
             while next < triangles.len() && triangles[next].0 < from {

@@ -1,18 +1,22 @@
-//! obvhs: its binary tree, refitted, and a traversal of pairs of its public nodes.
+//! obvhs: its binary tree with refit, and a traversal of pairs of its public nodes.
 //!
-//! Built once on the boxes of the triangles in their first shape, by the library's own recipe (`build_bvh2` with the preset
-//! that builds slowest and best, as building is not timed: PLOC, reinsertion, leaves collapsed to at most so many triangles),
-//! then, as its documentation advises, nodes laid out in the order of the traversal and triangles in the order of the leaves,
-//! without an indirection. A step writes the boxes of the leaves and calls the library's `refit_all`, which then is one sweep
-//! over the nodes from back to front.
+//! - **Build**, once, on boxes of the triangles in their first shape, by the library's recipe
+//!   `build_bvh2`. The preset is the slowest and best, as building is not timed: PLOC, reinsertion,
+//!   collapsed leaves.
+//! - **Layout**, as the documentation advises: nodes in the order of the traversal, triangles in
+//!   the order of the leaves, without an indirection.
+//! - **Step**: writes the boxes of the leaves and calls `refit_all`, which is then one sweep over
+//!   the nodes from back to front.
+//! - **Query**: the library has no traversal of two trees. This one is iterative, with a stack of
+//!   pairs of nodes with overlapping boxes. Two inner nodes are *both* opened (four box tests);
+//!   against a leaf, the inner node alone (two). Opening only the larger of two was 15 to 25 %
+//!   slower.
+//! - **Tree with itself**: a node with itself opens into either child with itself and the two with
+//!   each other, so each pair comes once.
+//! - **Leaves** with more than one triangle: boxes of triangles are made where two leaves meet.
 //!
-//! The library has no query of a tree against a tree. The one here is iterative: a stack of pairs of nodes whose boxes
-//! overlap; two inner nodes are *both* opened (four box tests), an inner node against a leaf is opened alone (two). Opening
-//! only the larger of two was 15 to 25 % slower. In a tree with itself, a node with itself opens into either child with itself
-//! and the two with each other: each pair once. With more than one triangle a leaf, boxes of triangles are made where two
-//! leaves meet.
-//!
-//! Every box test is visible and counted. Boxes are those of the refit; what is made where leaves meet is part of the test.
+//! Every box test is visible and counted. Counted boxes are made by the refit; making boxes where
+//! leaves meet is part of the test.
 
 use super::answer::{Answer, Proposer, self_pair};
 use super::bodies::share_a_vertex;
@@ -28,7 +32,7 @@ use obvhs::bvh2::node::Bvh2Node;
 use std::ops::{ControlFlow, Range};
 use std::time::Duration;
 
-/// obvhs, refitted.
+/// obvhs with refit.
 pub struct Obvhs {
     triangles_a_leaf: u32,
     bodies: Vec<Body>,
@@ -36,7 +40,7 @@ pub struct Obvhs {
     answer: Answer,
 }
 
-/// Memory that queries use again.
+/// Memory that queries reuse.
 #[derive(Default)]
 struct Scratch {
     /// Pairs of nodes whose boxes overlap, still to be opened.
@@ -46,7 +50,8 @@ struct Scratch {
 }
 
 impl Obvhs {
-    /// The library's trees with at most so many triangles a leaf (1 to 255), and this decision.
+    /// Trees of the library with at most `triangles_a_leaf` triangles a leaf (1 to 255), and this
+    /// triangle test.
     pub fn new(triangles_a_leaf: u32, decision: Decision) -> Self {
         Self {
             triangles_a_leaf,
@@ -57,7 +62,7 @@ impl Obvhs {
     }
 }
 
-/// obvhs, refitted with boxes of motions that are grown by a margin, and asked what is near.
+/// obvhs with refitted boxes of motions, grown by a margin, for candidates.
 pub struct NearObvhs {
     triangles_a_leaf: u32,
     bodies: Vec<Body>,
@@ -66,7 +71,8 @@ pub struct NearObvhs {
 }
 
 impl NearObvhs {
-    /// The library's trees with at most so many triangles a leaf, and this margin round each vertex, edge and triangle.
+    /// Trees of the library with at most `triangles_a_leaf` triangles a leaf, and a margin of
+    /// `radius` round each element.
     pub fn new(triangles_a_leaf: u32, radius: f64) -> Self {
         Self {
             triangles_a_leaf,
@@ -217,16 +223,16 @@ impl Proposer for Obvhs {
     }
 }
 
-/// A body, its triangles in the order of the leaves.
+/// A body, with its triangles in the order of the leaves.
 struct Body {
     triangles: Vec<[u32; 3]>,
-    /// What the caller calls them.
+    /// Caller's numbers of the triangles.
     numbers: Vec<u32>,
-    /// In the caller's order.
+    /// Positions in the caller's order.
     positions: Vec<[f32; 3]>,
-    /// At the end of a motion; empty if there is none.
+    /// Positions at the end of the motion; empty if there is none.
     ends: Vec<[f32; 3]>,
-    /// By how much boxes are larger on every side.
+    /// Growth of boxes on every side.
     grown_by: f32,
     tree: Bvh2,
 }
@@ -252,7 +258,7 @@ impl Body {
             numbers.extend(places(leaf).map(|place| tree.primitive_indices[place]));
             leaf.first_index = first;
         }
-        // Places are triangles now: the tree says so, as the library expects it.
+        // The library expects the tree to say that places are triangles now.
         tree.primitive_indices = (0..numbers.len() as u32).collect();
         Self {
             triangles: numbers
@@ -267,7 +273,7 @@ impl Body {
         }
     }
 
-    /// The boxes of the leaves, then the library's refit.
+    /// Writes the boxes of the leaves, then refits by the library.
     fn refit(&mut self) {
         let nodes = self.tree.nodes.len();
         for node in 0..nodes {
@@ -311,7 +317,7 @@ fn triangle_box(positions: &[[f32; 3]], corners: [u32; 3]) -> Aabb {
     Aabb::new(own_box.lo.into(), own_box.hi.into())
 }
 
-/// The triangles of a leaf.
+/// Places of a leaf's triangles.
 #[inline]
 fn places(leaf: &Bvh2Node) -> Range<usize> {
     let first = leaf.first_index as usize;
@@ -383,7 +389,7 @@ fn overlap(nodes_a: &[Bvh2Node], i: u32, nodes_b: &[Bvh2Node], j: u32) -> bool {
         .intersect_aabb(nodes_b[j as usize].aabb())
 }
 
-/// Opens whichever of two nodes is not a leaf, both if both are not, and pushes the pairs whose boxes overlap.
+/// Opens the inner nodes of a pair, and pushes the pairs of children whose boxes overlap.
 #[inline]
 fn open(
     [nodes_a, nodes_b]: [&[Bvh2Node]; 2],
@@ -409,8 +415,9 @@ fn open(
     }
 }
 
-/// Visits pairs of triangles of two leaves whose boxes overlap. The boxes of the leaves are known to overlap: for one triangle
-/// a leaf that is all.
+/// Visits pairs of triangles of two leaves whose boxes overlap.
+///
+/// The boxes of the leaves are known to overlap, which is enough for one triangle a leaf.
 #[inline]
 fn leaf_against_leaf(
     [a, b]: [&Body; 2],

@@ -1,4 +1,4 @@
-//! pliant, in any configuration and precision: what a user of the library would write.
+//! pliant in any configuration and precision, called as a user of the library would.
 
 use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};
@@ -11,41 +11,41 @@ pub struct Ours<S: Scalar = f32> {
     name: String,
     world: World<S>,
     bodies: Vec<BodyId>,
-    /// Whether every step begins with fresh trees, whose building is no part of any time.
+    /// Whether every step begins with fresh trees, whose building is not timed.
     builds_anew: bool,
     /// Whether boxes are made at every step, also of bodies that meet nobody.
     always: bool,
-    /// Positions in the world's precision, if it is another.
+    /// Positions in the world's precision, where that is not `f32`.
     positions: Vec<[S; 3]>,
     pairs: Vec<Pair>,
     counters: Counters,
-    /// What is asked of vertices and triangles and of edges.
+    /// Query about vertices, edges and triangles.
     asked: Asked,
 }
 
-/// What a world may be asked of its vertices, triangles and edges.
+/// Queries that a world can be asked about its elements.
 #[derive(Clone, Copy, Debug)]
 enum Asked {
-    /// Which are near each other, with this margin round each.
+    /// Candidates, with this margin round each element.
     Candidates(f64),
-    /// The same, but only how many.
+    /// Number of candidates, with this margin round each element.
     Count(f64),
-    /// Which are at most so far apart.
+    /// Close pairs, at most this far apart.
     ClosePairs(f64),
-    /// Which meet on their way.
+    /// Impacts during the motion.
     Impacts,
-    /// The first contact on the way.
+    /// First impact during the motion.
     FirstImpact,
-    /// Which triangles intersect now, of all bodies and of each with itself.
+    /// Intersecting triangles, of all bodies and of each with itself.
     Intersections,
 }
 
-/// How exactly a contact's time is wanted.
+/// Width of the intervals that locate impacts, as a fraction of the motion.
 const WIDTH: f64 = 1e-6;
 
-/// A precision, and how shapes come into a world of it.
+/// A precision, and the conversion of shapes into it.
 pub trait Precision: Scalar {
-    /// The positions themselves, or as they are in `buffer`, if they have to be widened.
+    /// Positions in this precision: themselves, or widened into `buffer`.
     fn of<'p>(positions: &'p [[f32; 3]], buffer: &'p mut Vec<[Self; 3]>) -> &'p [[Self; 3]];
 }
 
@@ -64,7 +64,7 @@ impl Precision for f64 {
 }
 
 impl<S: Scalar> Ours<S> {
-    /// The library with these options, under this name.
+    /// The library with these options, under this name in tables.
     pub fn new(name: &str, options: Options) -> Self {
         Self {
             name: name.to_owned(),
@@ -79,37 +79,39 @@ impl<S: Scalar> Ours<S> {
         }
     }
 
-    /// Is asked what is near, with a margin round each vertex, edge and triangle.
+    /// Asks for candidates, with this margin round each element.
     #[must_use]
     pub fn within(self, radius: f64) -> Self {
         self.asked(Asked::Candidates(radius))
     }
 
-    /// Is shown what is near and counts it: the one row is how many vertices with triangles, how many edges with edges, and two zeros.
+    /// Counts candidates in a visitor.
+    ///
+    /// The only row is the number of vertices with triangles, of edges with edges, and two zeros.
     #[must_use]
     pub fn counting(self, radius: f64) -> Self {
         self.asked(Asked::Count(radius))
     }
 
-    /// Is asked for close pairs, at most so far apart.
+    /// Asks for close pairs, at most this far apart.
     #[must_use]
     pub fn closer_than(self, distance: f64) -> Self {
         self.asked(Asked::ClosePairs(distance))
     }
 
-    /// Is asked what meets on its way.
+    /// Asks for impacts during the motion.
     #[must_use]
     pub fn impacts(self) -> Self {
         self.asked(Asked::Impacts)
     }
 
-    /// Is asked what meets first on its way.
+    /// Asks for the first impact during the motion.
     #[must_use]
     pub fn first_impact(self) -> Self {
         self.asked(Asked::FirstImpact)
     }
 
-    /// Is asked which triangles intersect where vertices and edges are asked of others.
+    /// Asks for intersecting triangles where others are asked for candidates.
     #[must_use]
     pub fn intersections(self) -> Self {
         self.asked(Asked::Intersections)
@@ -119,7 +121,7 @@ impl<S: Scalar> Ours<S> {
         Self { asked, ..self }
     }
 
-    /// Has fresh trees at every query, whose building is no part of any time.
+    /// Builds fresh trees before every query; that is not timed.
     #[must_use]
     pub fn fresh(self) -> Self {
         Self {
@@ -128,7 +130,7 @@ impl<S: Scalar> Ours<S> {
         }
     }
 
-    /// Does at every step what the options say is done ahead of a query, whether or not a body meets another.
+    /// Updates every body at every step as far as the options say, whether or not it meets another.
     #[must_use]
     pub fn always(self) -> Self {
         Self {
@@ -145,7 +147,7 @@ impl<S: Scalar> Ours<S> {
     }
 }
 
-/// Makes a step of an edit; vertices that come are where `at` says.
+/// Adds one change to an edit. New vertices get their positions in `at`.
 pub fn add_step<S: Scalar>(edit: &mut Edit<S>, change: &Change, at: &[[S; 3]]) {
     match change {
         Change::AddVertices(count) => {
@@ -202,10 +204,10 @@ impl<S: Precision> Method for Ours<S> {
     fn untimed(&mut self) {
         if self.builds_anew {
             for &body in &self.bodies {
-                // Bodies that are fused with others are no more.
+                // Bodies that were fused with others are gone.
                 let _ = self.world.rebuild(body);
             }
-            // What neighbours are is part of building.
+            // Tables of neighbours are part of building.
             let prepared = self.world.intersections(Selection::Everything).prepare();
             prepared.expect("the whole world is there");
         }

@@ -1,19 +1,20 @@
 //! parry3d: a `TriMesh` whose vertices move, and its `Bvh::leaf_pairs`.
 //!
-//! The shortest public way through the library, which is also the fastest: `TriMesh::update_vertices` writes the vertices and
-//! refits the whole binary tree in place, one triangle a leaf; `leaf_pairs` descends two trees together and yields pairs of
-//! leaves whose boxes overlap; then comes the decision of the bench. The library's own test of two triangles (GJK) is not
-//! used: it is slower, and reports near neighbours in one plane. A tree against itself is `traverse_bvtt_single_tree`, each
-//! pair once.
+//! The shortest public way through the library, which is also the fastest. Boxes of bodies are
+//! boxes of the roots, compared by brute force.
 //!
-//! The mesh keeps the only copy of vertices and triangles. Boxes of bodies are those of the roots, met by brute force.
-//!
-//! The tree is the one that `TriMesh` builds (binned surface area heuristic on the first shape), refitted for ever; the library
-//! could reorder or rebuild it, at a price every step.
-//!
-//! Boxes are counted by the size of the trees, box tests between bodies in the check given to `leaf_pairs`. What
-//! `leaf_pairs` does before its first check (four pairs of children of the roots, taken as overlapping) and the box tests of a
-//! tree with itself are not visible, and not counted.
+//! - **Mesh**: keeps the only copy of vertices and triangles.
+//! - **Build**: `TriMesh` builds the tree, by the surface area heuristic in bins, on the first
+//!   shape. It is never rebuilt: the library could reorder or rebuild it, at a price every step.
+//! - **Step**: `TriMesh::update_vertices` writes the vertices and refits the binary tree in place,
+//!   one triangle a leaf.
+//! - **Query**: `leaf_pairs` descends two trees together and yields pairs of leaves whose boxes
+//!   overlap. A tree with itself is `traverse_bvtt_single_tree`, each pair once.
+//! - **Decision**: the bench's. The library's own test of two triangles (GJK) is slower, and
+//!   reports near neighbours in one plane.
+//! - **Counters**: boxes by the size of the trees, box tests in the check given to `leaf_pairs`.
+//!   Not visible, so not counted: its first four pairs, taken as overlapping, and the tests within
+//!   one tree.
 
 use super::answer::{Answer, Proposer, self_pair};
 use super::bodies::share_a_vertex;
@@ -29,7 +30,7 @@ use parry3d::shape::{TriMesh, TriMeshFlags, Triangle as ParryTriangle};
 use std::cell::Cell;
 use std::ops::ControlFlow;
 
-/// parry3d, refitted.
+/// parry3d with refit.
 pub struct Parry {
     meshes: Vec<TriMesh>,
     boxes: Vec<Aabb>,
@@ -38,7 +39,7 @@ pub struct Parry {
 }
 
 impl Parry {
-    /// The library's trees with this decision.
+    /// Trees of the library, with this triangle test.
     pub fn new(decision: Decision) -> Self {
         Self {
             meshes: Vec::new(),
@@ -49,8 +50,9 @@ impl Parry {
     }
 }
 
-/// parry3d's tree, refitted with boxes of motions that are grown by a margin, and asked what is near. The boxes go into the tree as
-/// `TriMesh` puts them there.
+/// parry3d's tree with refitted boxes of motions, grown by a margin, for candidates.
+///
+/// Boxes go into the tree as `TriMesh` puts them there.
 pub struct NearParry {
     bodies: Vec<(Vec<[u32; 3]>, Bvh)>,
     workspace: BvhWorkspace,
@@ -58,7 +60,7 @@ pub struct NearParry {
 }
 
 impl NearParry {
-    /// With this margin round each vertex, edge and triangle.
+    /// Candidates with this margin round each vertex, edge and triangle.
     pub fn new(radius: f64) -> Self {
         Self {
             bodies: Vec::new(),
@@ -89,7 +91,7 @@ impl Method for NearParry {
             let boxes: Vec<_> = boxes
                 .map(|corners| self.box_of(&body.shape, corners))
                 .collect();
-            // As `TriMesh` builds its own.
+            // The strategy with which `TriMesh` builds its own tree.
             let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
             self.bodies.push((body.triangles.to_vec(), tree));
         }
@@ -179,7 +181,7 @@ impl Proposer for Parry {
                 }
             });
             *own_box = mesh.local_aabb();
-            // The leaves, and the nodes above them but for the root, which is not stored.
+            // Leaves, and nodes above them except the root, which is not stored.
             let leaves = mesh.indices().len() as u64;
             self.answer.counters.boxes += leaves + leaves.saturating_sub(2);
         }
@@ -229,7 +231,7 @@ impl Proposer for Parry {
                 .traverse_bvtt_single_tree::<false>(workspace, &mut |i, j| {
                     if !share_a_vertex(triangles[i as usize], triangles[j as usize]) {
                         let pair = self_pair(body, i, j);
-                        // All are wanted; the traversal could not be stopped.
+                        // All pairs are wanted, and the traversal could not be stopped.
                         let _ = answer.candidate(pair, &corners(mesh, i), &corners(mesh, j));
                     }
                 });
@@ -242,16 +244,17 @@ impl Proposer for Parry {
     }
 }
 
-/// parry3d, refitted, asked how far two bodies are apart: in one of two ways.
+/// Distance of two bodies by parry3d, in one of two ways.
 pub struct FarParry {
     meshes: Parry,
     bounded: bool,
-    /// The triangles that were nearest the last time.
+    /// Triangles that were nearest in the last query.
     last: Option<(u32, u32)>,
 }
 
 impl FarParry {
-    /// By its `query::distance` of two meshes, which descends the one tree and for each of its leaves the other.
+    /// By `query::distance` of two meshes, which descends one tree and, for each of its leaves, the
+    /// other.
     pub fn by_query() -> Self {
         Self {
             meshes: Parry::new(crate::decision::exact),
@@ -260,8 +263,10 @@ impl FarParry {
         }
     }
 
-    /// By its `leaf_pairs` of both trees, of which those are followed that are nearer than the nearest triangles so far, beginning with the
-    /// pair that was nearest the last time; `query::distance` of two triangles measures them.
+    /// By `leaf_pairs` of both trees, pruned by the nearest triangles found so far.
+    ///
+    /// The nearest pair of the last query comes first. `query::distance` of two triangles measures
+    /// pairs.
     pub fn by_leaf_pairs() -> Self {
         Self {
             bounded: true,
@@ -324,7 +329,7 @@ impl Method for FarParry {
             gap.max(zero).length_squared() < nearest.get() * nearest.get()
         });
         for (i, j) in leaves {
-            // They were found near enough when their parents were.
+            // Their distance was below the bound when their parents were compared.
             let boxes = [(a, i), (b, j)].map(|(mesh, number)| triangle(mesh, number).local_aabb());
             let gap = (boxes[1].mins - boxes[0].maxs).max(boxes[0].mins - boxes[1].maxs);
             if gap.max(Vector::ZERO).length_squared() >= nearest.get() * nearest.get() {

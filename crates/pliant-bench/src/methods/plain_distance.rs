@@ -1,6 +1,7 @@
-//! How far elements are apart, in plain `f64`: what a truth measures with, and nothing of ours.
+//! Distances of elements in plain `f64`, with which a truth measures; nothing of ours.
 //!
-//! The regions of a triangle and the clamped feet of two segments, as Ericson (2005, *Real-Time Collision Detection*, 5.1) has them.
+//! Regions of a triangle and clamped feet of two segments, as in Ericson (2005, *Real-Time
+//! Collision Detection*, 5.1).
 
 type Point = [f64; 3];
 
@@ -21,7 +22,7 @@ fn apart(p: Point, q: Point) -> f64 {
     dot(minus(p, q), minus(p, q)).sqrt()
 }
 
-/// How far a point is from a triangle.
+/// Distance of a point from a triangle.
 pub(super) fn of_point_and_triangle(p: Point, [a, b, c]: [Point; 3]) -> f64 {
     let (ab, ac, ap) = (minus(b, a), minus(c, a), minus(p, a));
     let (d1, d2) = (dot(ab, ap), dot(ac, ap));
@@ -58,7 +59,7 @@ pub(super) fn of_point_and_triangle(p: Point, [a, b, c]: [Point; 3]) -> f64 {
     )
 }
 
-/// How far two segments are apart.
+/// Distance of two segments.
 pub(super) fn of_segments([p1, q1]: [Point; 2], [p2, q2]: [Point; 2]) -> f64 {
     let (d1, d2, r) = (minus(q1, p1), minus(q2, p2), minus(p1, p2));
     let (a, e, f) = (dot(d1, d1), dot(d2, d2), dot(d2, r));
@@ -79,7 +80,7 @@ pub(super) fn of_segments([p1, q1]: [Point; 2], [p2, q2]: [Point; 2]) -> f64 {
     apart(along(p1, q1, s), along(p2, q2, clamped))
 }
 
-/// How far two triangles are apart that do not intersect: the nearest of six corners and nine edges.
+/// Distance of two triangles that do not intersect: the nearest of six corners and nine edges.
 pub(super) fn of_triangles(a: [Point; 3], b: [Point; 3]) -> f64 {
     let mut least = f64::INFINITY;
     for i in 0..3 {

@@ -1,16 +1,16 @@
-//! Methods that know nothing of edits, where meshes change: what people do today.
+//! Methods without edits, on changing meshes.
 //!
-//! [`Rebuilt`] builds anew whenever a mesh changes; [`Unedited`] is asked about the same shapes as if nothing happened, to see what edits
-//! cost.
+//! [`Rebuilt`] builds anew whenever a mesh changes, as people do today. [`Unedited`] sees the same
+//! shapes as if no mesh changed, which shows the cost of edits.
 
 use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};
 use pliant_scenes::{ChangingMesh, Event};
 
-/// Builds anew, of the triangles that there are, whenever something happens to a mesh.
+/// A method that is built anew, from the triangles that exist, whenever a mesh changes.
 pub struct Rebuilt<M> {
     method: M,
-    /// What the method calls bodies, triangles and vertices, by the numbers that it has for them.
+    /// Original numbers of bodies, triangles and vertices, by the method's numbers.
     bodies: Vec<Numbers>,
     shapes: Vec<Vec<[f32; 3]>>,
     pairs: Vec<Pair>,
@@ -24,7 +24,7 @@ struct Numbers {
 }
 
 impl<M> Rebuilt<M> {
-    /// A method in this way.
+    /// Wraps a method.
     pub fn new(method: M) -> Self {
         Self {
             method,
@@ -34,7 +34,7 @@ impl<M> Rebuilt<M> {
         }
     }
 
-    /// The shapes of the bodies that the method has, of the vertices that it has.
+    /// Shapes of the bodies and vertices that the method has.
     fn gather(&mut self, shapes: &[Shape<'_>]) {
         self.shapes.resize_with(self.bodies.len(), Vec::new);
         for (shape, numbers) in self.shapes.iter_mut().zip(&self.bodies) {
@@ -118,7 +118,7 @@ impl<M: Method> Method for Rebuilt<M> {
             [a, s, b, t]
         };
         self.pairs.clear();
-        // Numbers are in the order of those that the method has: what was sorted is.
+        // The method's numbers are in the order of the original ones, so the list stays sorted.
         self.pairs.extend(found.iter().map(named));
         Some(&self.pairs)
     }
@@ -128,14 +128,14 @@ impl<M: Method> Method for Rebuilt<M> {
     }
 }
 
-/// Is told nothing of what happens to meshes: vertices that come are not there.
+/// A method that is told of no change: new vertices are missing.
 pub struct Unedited<M> {
     method: M,
     vertices: Vec<usize>,
 }
 
 impl<M> Unedited<M> {
-    /// A method in this way.
+    /// Wraps a method.
     pub fn new(method: M) -> Self {
         Self {
             method,

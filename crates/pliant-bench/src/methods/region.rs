@@ -1,10 +1,12 @@
-//! The triangles of a body that reach into a region, with their boxes: what methods without a tree work on. Nothing is kept
-//! from step to step but memory.
+//! Triangles of a body that reach into a region, with their boxes: the input of methods without a
+//! tree.
+//!
+//! Nothing is kept from step to step, except memory.
 
 use super::aabb::Aabb;
 use super::bodies::Bodies;
 
-/// Triangles and their boxes, side by side.
+/// Triangles and their boxes, in structure-of-arrays form.
 #[derive(Debug, Default)]
 pub(super) struct Region {
     pub(super) triangles: Vec<u32>,
@@ -12,8 +14,11 @@ pub(super) struct Region {
 }
 
 impl Region {
-    /// Takes the triangles of a body whose boxes meet `region`. A box that meets a box of the other body meets the overlap of
-    /// the boxes of the two bodies: both hold the point that they have in common. Makes a box for every triangle.
+    /// Collects the triangles of a body whose boxes meet `region`. Makes a box for every triangle,
+    /// O(n).
+    ///
+    /// A box that meets a box of the other body meets the overlap of the two bodies' boxes, since
+    /// both hold the common point.
     pub(super) fn gather(&mut self, bodies: &Bodies, body: usize, region: &Aabb) {
         self.triangles.clear();
         self.boxes.clear();
@@ -27,7 +32,7 @@ impl Region {
     }
 }
 
-/// The regions of both bodies of a pair.
+/// Regions of both bodies of a pair.
 pub(super) fn gather_overlap(
     bodies: &Bodies,
     [a, b]: [usize; 2],

@@ -1,12 +1,11 @@
-//! A flat sweep of the triangle boxes in the region where the boxes of two bodies overlap: is anything better than no tree?
+//! Sort and sweep over boxes of triangles, in the region where two bodies overlap: is a tree worth
+//! it?
 //!
-//! One axis is swept, that on which the box centres of the region vary most: where they are spread the widest, the fewest
-//! boxes share a coordinate. Boxes are sorted by their lower side from scratch at every query; two boxes overlap on the axis
-//! if and only if the later one begins before the earlier one ends. The other two axes are compared directly, then comes the
-//! decision. A body with itself is swept whole, and neighbours are dropped after the boxes.
-//!
-//! Nothing is kept from step to step, there is nothing to go stale and no structure to be wrong: this is also the method that
-//! others are compared with where all pairs without boxes would take too long.
+//! One axis is swept: the one on which the box centres vary most, where the fewest boxes share a
+//! coordinate. Boxes are sorted by their lower side from scratch at every query. Two boxes overlap
+//! on the axis if and only if the later one begins before the earlier one ends. The other two axes
+//! are compared directly, then triangles are decided, except neighbours. Nothing is kept from step
+//! to step, so this is also the truth where all pairs without boxes would take too long.
 
 use super::aabb::Aabb;
 use super::answer::{Answer, Proposer, self_pair};
@@ -17,7 +16,7 @@ use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};
 use std::ops::ControlFlow;
 
-/// Sort and sweep over triangle boxes, one axis.
+/// Sort and sweep over boxes of triangles, along one axis.
 pub struct Sweep {
     bodies: Bodies,
     regions: [Region; 2],
@@ -26,7 +25,7 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// The sweep with this decision.
+    /// The sweep with this triangle test.
     pub fn new(decision: Decision) -> Self {
         Self {
             bodies: Bodies::default(),
@@ -37,14 +36,15 @@ impl Sweep {
     }
 }
 
-/// The same, where vertices and edges are asked of others: triangles of different bodies and of each body with itself.
+/// The sweep over different bodies and each body with itself, where others are asked for
+/// candidates.
 pub struct Everywhere {
     sweep: Sweep,
     pairs: Vec<Pair>,
 }
 
 impl Everywhere {
-    /// The sweep with this decision.
+    /// The sweep with this triangle test.
     pub fn new(decision: Decision) -> Self {
         Self {
             sweep: Sweep::new(decision),
@@ -162,7 +162,7 @@ impl Proposer for Sweep {
     }
 }
 
-/// The axis on which the centres of the boxes have the largest variance; the first one of equals.
+/// Axis on which the centres of the boxes have the largest variance; the first of equal ones.
 fn widest_axis<'a>(boxes: impl IntoIterator<Item = &'a Aabb>) -> usize {
     let (mut count, mut sums, mut squares) = (0.0, [0.0; 3], [0.0; 3]);
     for own_box in boxes {
@@ -173,7 +173,7 @@ fn widest_axis<'a>(boxes: impl IntoIterator<Item = &'a Aabb>) -> usize {
             squares[axis] += twice_centre * twice_centre;
         }
     }
-    // Rounding may choose a worse axis far from the origin, never a wrong answer.
+    // Far from the origin rounding may choose a worse axis, but never causes a wrong answer.
     let variance = |axis: usize| squares[axis] - sums[axis] * sums[axis] / count;
     (1..3).fold(0, |widest, axis| {
         if variance(axis) > variance(widest) {
@@ -184,7 +184,7 @@ fn widest_axis<'a>(boxes: impl IntoIterator<Item = &'a Aabb>) -> usize {
     })
 }
 
-/// A box and whose it is, the axis of the sweep first.
+/// A box and its triangle, the axis of the sweep first.
 #[derive(Clone, Copy, Debug)]
 struct Item {
     lo: [f32; 3],
@@ -193,7 +193,9 @@ struct Item {
 }
 
 impl Item {
-    /// On the axes that are not swept; touching counts. No branch between the four: they are seldom true together.
+    /// Whether two boxes overlap on the axes that are not swept; touching counts.
+    ///
+    /// No branch between the four comparisons: they are seldom true together.
     #[inline]
     fn overlaps_across(&self, other: &Self) -> bool {
         (self.lo[1] <= other.hi[1])
@@ -211,7 +213,7 @@ struct Sorted {
 }
 
 impl Sorted {
-    /// Sorts whole numbers, where a box begins above its place, and fetches the boxes once.
+    /// Sorts integer keys (start above place), then fetches the boxes in that order.
     fn sort(&mut self, region: &Region, axis: usize) {
         self.keys.clear();
         self.keys.extend(
@@ -234,7 +236,7 @@ impl Sorted {
     }
 }
 
-/// A whole number that grows with a finite number.
+/// An integer that grows with a finite number.
 #[inline]
 fn ascending(value: f32) -> u32 {
     let bits = value.to_bits();
@@ -245,8 +247,10 @@ fn ascending(value: f32) -> u32 {
     }
 }
 
-/// Visits pairs of two lists that overlap. Of two boxes that overlap on the axis, one begins first or they begin together;
-/// when it is taken the other is still to come, so each pair is met once.
+/// Visits the overlapping pairs of two lists, each once.
+///
+/// Of two boxes that overlap on the axis, one begins first or they begin together. When it is
+/// taken, the other is still to come.
 fn sweep_two(
     a: &[Item],
     b: &[Item],
@@ -270,7 +274,7 @@ fn sweep_two(
     ControlFlow::Continue(())
 }
 
-/// Visits pairs of one list that overlap, each once.
+/// Visits the overlapping pairs of one list, each once.
 fn sweep_one(
     items: &[Item],
     box_tests: &mut u64,
@@ -284,7 +288,7 @@ fn sweep_one(
     ControlFlow::Continue(())
 }
 
-/// Visits those of the boxes to come, none of which begins before `item`, that overlap it.
+/// Visits the boxes that overlap `item`, among the next in order. None of them begins before it.
 #[inline]
 fn overlapping(
     item: &Item,

@@ -1,12 +1,13 @@
-//! The box of one triangle, straight from where its vertices lie.
+//! Box of one triangle, computed directly from its vertices.
 //!
-//! The boxes of all triangles are most of what methods without a persistent tree do in a step, so this is written with care:
-//! corners are not copied first (three points put together and at once read in other pieces make a processor wait), and `if`
-//! picks the smaller number, one instruction, where `f32::min` spends two more on NaN.
+//! Methods without a persistent tree spend most of a step on such boxes, hence two details. Corners
+//! are not copied first: three points written together and read at once in other pieces stall a
+//! processor. The smaller number is picked by `if`, one instruction; `f32::min` spends two more on
+//! NaN.
 
 use super::aabb::Aabb;
 
-/// The box of a triangle given by its vertices.
+/// Box of a triangle, given by its vertices.
 #[inline]
 pub(super) fn triangle_box(corners: [u32; 3], positions: &[[f32; 3]]) -> Aabb {
     let smaller = |a: f32, b: f32| if a < b { a } else { b };

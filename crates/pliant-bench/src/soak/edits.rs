@@ -1,22 +1,24 @@
-//! Edits of a body's mesh, and what they come to. A triangle may be empty, a vertex is not: no answer would tell.
+//! Random edits of a body's mesh, and their effect on what is known of it.
+//!
+//! A triangle may be empty, but no vertex ever is: no answer would tell.
 
 use super::{Known, Soak, Wrong};
 use pliant::Scalar;
 
-/// What the world says of an empty triangle.
+/// The empty triangle, as the world reports it.
 pub(super) const EMPTY: [u32; 3] = [u32::MAX; 3];
 
-/// A body has no more vertices than this by edits, so that a parade has seen the largest.
+/// Most vertices that edits leave a body: none gets larger than the bodies of a parade.
 const MOST_VERTICES: usize = 64;
 
 impl<S: Scalar> Soak<S> {
-    /// The mesh of a body, empty triangles included.
+    /// Mesh of a body, empty triangles included.
     pub(super) fn mesh<'a>(&'a self, body: &'a Known<S>) -> &'a [[u32; 3]] {
         let surface = &self.surfaces[body.surface].triangles;
         body.edited.as_deref().unwrap_or(surface)
     }
 
-    /// Changes a few triangles of some body: takes one out, puts one in again, tears one off, adds one.
+    /// Changes a few triangles of a random body: removes, restores, detaches or adds one each.
     pub(super) fn edit(&mut self) -> Result<(), Wrong> {
         let some = self.random.index(self.known.len());
         let mut mesh = self.mesh(&self.known[some]).to_vec();
@@ -32,7 +34,7 @@ impl<S: Scalar> Soak<S> {
                 others.any(|(other, it)| other != triangle && it.contains(vertex))
             };
             match self.random.below(4) {
-                // Vertices stay, with other triangles.
+                // Every vertex keeps another triangle.
                 0 if corners != EMPTY => {
                     if corners.iter().all(stays) {
                         edit.remove_triangle(triangle as u32);
@@ -48,7 +50,7 @@ impl<S: Scalar> Soak<S> {
                     }
                 }
                 _ => {
-                    // Corners that some triangle has, so that none is left without.
+                    // Corners of existing triangles, so that no vertex is left without.
                     let all: Vec<u32> = mesh
                         .iter()
                         .filter(|it| **it != EMPTY)

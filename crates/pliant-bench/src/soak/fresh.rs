@@ -1,7 +1,8 @@
-//! The comparison: every answer of the world that lives against that of a world that was never anything else, and a few of
-//! them against the reference, which has no tree.
+//! Comparison of every answer with a world built fresh, and of a few with the reference, which has
+//! no tree.
 
 use super::edits::EMPTY;
+use super::kinds::{Much, every_kind};
 use super::{AllClose, FAR_APART, FAR_BUT_CLOSE, Met, Near, SIDE, Soak, Wrong};
 use pliant::{
     BodyId, CloseEdgeEdge, Degree, EdgeEdge, EdgeEdgeImpact, Impact, Options, Pair, Partition,
@@ -18,7 +19,7 @@ impl<S: Scalar> Soak<S> {
         let mut fresh = World::with_options(options);
         for body in &self.known {
             let mesh = self.mesh(body);
-            // Numbers that are empty were never anything but points there.
+            // Vertices of empty triangles were never more than points there.
             let is_there = |it: &&[u32; 3]| **it != EMPTY;
             let [point, ..] = mesh.iter().find(is_there).copied().unwrap_or_default();
             let filled = mesh
@@ -48,17 +49,19 @@ impl<S: Scalar> Soak<S> {
         self.compare_within(&mut fresh)?;
         self.compare_two_bodies(&mut fresh)?;
         self.compare_near(&mut fresh)?;
-        // It takes as long as all the rest.
+        // Takes as long as all other comparisons.
         if self.random.one_in(3) {
             self.compare_close(&mut fresh)?;
         }
         self.compare_met(&mut fresh)?;
         self.compare_distances(&mut fresh)?;
+        self.compare_with_a_copy()?;
         self.tally.compared += 1;
         Ok(())
     }
 
-    /// The world's own configuration, or another: no option changes an answer.
+    /// Options of the fresh world: the same as the world's own, or others. No option changes an
+    /// answer.
     fn other_options(&mut self) -> Options {
         let mut options = *self.world.options();
         if self.random.one_in(2) {
@@ -76,7 +79,7 @@ impl<S: Scalar> Soak<S> {
         options
     }
 
-    /// The id in a fresh world: there, bodies are numbered in order.
+    /// Id of a body in a fresh world, which numbers bodies in order.
     fn fresh_id(&self, id: BodyId) -> BodyId {
         BodyId(self.known.partition_point(|body| body.id < id) as u32)
     }
@@ -147,7 +150,7 @@ impl<S: Scalar> Soak<S> {
         Ok(())
     }
 
-    /// What is near, on the way too.
+    /// Compares candidates, also along motions.
     fn compare_near(&mut self, fresh: &mut World<S>) -> Result<(), Wrong> {
         let radius = [0.0, 0.01, FAR_APART][self.random.index(3)];
         let expected = Near::of(fresh, radius);
@@ -173,7 +176,7 @@ impl<S: Scalar> Soak<S> {
         Ok(())
     }
 
-    /// What is close, with all figures.
+    /// Compares close pairs with all their figures.
     fn compare_close(&mut self, fresh: &mut World<S>) -> Result<(), Wrong> {
         let distance = [0.0, FAR_BUT_CLOSE / 4.0, FAR_BUT_CLOSE][self.random.index(3)];
         let expected = AllClose::of(fresh, distance);
@@ -190,7 +193,8 @@ impl<S: Scalar> Soak<S> {
         let found = self.good("what is close", found)?;
         let edges = |all: &AllClose| all.edge_edge.iter().map(|&it| (it.pair, it)).collect();
         let [found_edges, expected_edges] = self.by_ends([edges(&found), edges(&expected)], fresh);
-        // Which of two edges of one body comes first is up to their numbers, and to that what is rounded how.
+        // Which of two edges of one body comes first depends on their numbers, and on that how
+        // figures are rounded.
         let is_same_edge = |(found, expected): (&Named<_>, &Named<_>)| {
             let (mut one, other): (CloseEdgeEdge, CloseEdgeEdge) = (found.more, expected.more);
             one.pair = other.pair;
@@ -217,7 +221,7 @@ impl<S: Scalar> Soak<S> {
         Ok(())
     }
 
-    /// What meets on the way, with its times, what meets first, and how far everything may go.
+    /// Compares impacts with their times, the first impact, and free steps.
     fn compare_met(&mut self, fresh: &mut World<S>) -> Result<(), Wrong> {
         let width = [0.0, 1e-6, 1.0][self.random.index(3)];
         let distance = [0.0, FAR_BUT_CLOSE / 8.0][self.random.index(2)];
@@ -243,7 +247,8 @@ impl<S: Scalar> Soak<S> {
                 .collect::<Vec<_>>()
         });
         let is_same_first = match (found.first, expected.first) {
-            // Of several edges that meet first it is the lowest, by numbers that edits give.
+            // Of several edges that meet first the lowest is reported, by numbers that edits
+            // assign.
             (Some(Impact::EdgeEdge(found)), Some(Impact::EdgeEdge(expected))) => {
                 [found.low, found.high] == [expected.low, expected.high]
             }
@@ -264,12 +269,29 @@ impl<S: Scalar> Soak<S> {
         Ok(())
     }
 
-    /// What the world that lives calls a body of a fresh one.
+    /// Compares all hits of one kind, each kind in its turn, with a copy of the world.
+    ///
+    /// All boxes of a copy are made anew; bodies and edges have the same names there.
+    fn compare_with_a_copy(&mut self) -> Result<(), Wrong> {
+        let kinds = every_kind::<S>();
+        let kind = &kinds[self.tally.compared as usize % kinds.len()];
+        let mut copy = self.world.clone();
+        let [found, expected] = [&mut self.world, &mut copy]
+            .map(|world| (kind.ask)(world, Selection::Everything, FAR_BUT_CLOSE, Much::All));
+        let name = kind.name;
+        let (found, expected) = (self.good(name, found)?, self.good(name, expected)?);
+        if found != expected {
+            return self.wrong(format!("{name}: {found:?}, a copy has {expected:?}"));
+        }
+        Ok(())
+    }
+
+    /// Id in the long-lived world of a body of a fresh one.
     fn known_id(&self, fresh_id: BodyId) -> BodyId {
         self.known[fresh_id.0 as usize].id
     }
 
-    /// Pairs of edges of the world that lives and of a fresh one, by their ends: edits number edges in another way.
+    /// Names pairs of edges of both worlds by their ends, since edits number edges in another way.
     fn by_ends<T>(
         &self,
         [found, expected]: [Vec<(EdgeEdge, T)>; 2],
@@ -284,7 +306,7 @@ impl<S: Scalar> Soak<S> {
         [named(found, of_found), named(expected, of_expected)]
     }
 
-    /// How far some bodies are apart, and one from all others.
+    /// Compares distances of bodies, and of one body from all others.
     fn compare_distances(&mut self, fresh: &mut World<S>) -> Result<(), Wrong> {
         for _ in 0..4 {
             let cut_off = [f64::INFINITY, SIDE / 4.0][self.random.index(2)];
@@ -301,9 +323,9 @@ impl<S: Scalar> Soak<S> {
                 self.good("a distance", found)?,
                 self.good("a distance in a fresh world", expected)?,
             ];
-            // None is beyond the cut-off, which is no number below 0.
+            // `None` is beyond the cut-off: here -1.
             let [found, expected] = both.map(|it| it.map_or(-1.0, |close| close.distance));
-            // Of several triangles that are nearer or further by no more than 2^-30, it is some.
+            // Of several triangles whose distances differ by at most 2^-30, any may be reported.
             if (found - expected).abs() > expected.abs() * f64::powi(0.5, 29) {
                 return self.wrong(format!(
                     "{a} and {b} are {found} apart, in a fresh world {expected}"
@@ -314,7 +336,7 @@ impl<S: Scalar> Soak<S> {
         Ok(())
     }
 
-    /// Two bodies that meet if any do, whatever filters say: also against the reference.
+    /// Compares two bodies that meet, if any do, whatever filters say; also with the reference.
     fn compare_two_bodies(&mut self, fresh: &mut World<S>) -> Result<(), Wrong> {
         let pairs = self.world.intersections(Selection::World).all();
         let pairs = pairs.unwrap_or_default();
@@ -365,16 +387,16 @@ impl<S: Scalar> Soak<S> {
     }
 }
 
-/// Two edges that are close or meet, and what is known of them.
+/// A pair of edges that are close or meet, with further data.
 struct Named<T> {
     /// Their bodies and ends, the lower first.
     ends: [(BodyId, [u32; 2]); 2],
-    /// Whether by its number the other was first.
+    /// Whether the other edge is first by its number.
     is_turned: bool,
     more: T,
 }
 
-/// Pairs by the ends that `ends` says, in their order.
+/// Pairs with the ends that `ends` returns, in their order.
 fn named<T>(
     pairs: Vec<(EdgeEdge, T)>,
     ends: impl Fn(BodyId, u32) -> (BodyId, [u32; 2]),
@@ -396,7 +418,7 @@ fn named<T>(
     pairs
 }
 
-/// All pairs, without their bodies.
+/// All pairs of triangles, without their bodies.
 fn triangles<S: Scalar>(world: &mut World<S>, of: Selection) -> Option<Vec<[u32; 2]>> {
     let pairs = world.intersections(of).all().ok()?;
     Some(pairs.iter().map(Pair::triangles).collect())

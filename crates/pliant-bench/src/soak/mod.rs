@@ -1,25 +1,27 @@
-//! A world that lives long: hundreds of bodies that are added, moved, teleported, filtered, rebuilt and removed at random, and
-//! at random steps every answer compared with that of a world built fresh.
+//! Soak test: a long-lived world under random changes, compared with worlds built fresh.
 //!
-//! ```text
-//! a step     bodies move: none, one, a few, all; some twice; some far away, some out of their loose boxes
-//!            one other call: add, remove, rebuild, filter, ignore, loose box, motions, another mesh, or something that must be refused
-//!            perhaps an edit of a mesh
-//!            perhaps a query before it, and one after
-//!            one step in eight: the comparison   (`fresh`)
-//! a parade   every body goes, always the same ones come and meet in one heap, all queries are asked
-//! ```
-//!
-//! After a parade the world holds the same bodies, and has seen at least the same work, as after every parade before. So
-//! whoever counts memory there (the example `soak` does) should find as much as the time before: a difference is a leak.
-//!
+//! Hundreds of bodies are added, moved, teleported, filtered, rebuilt and removed. After a parade
+//! the world holds the same bodies, and has done at least the same work, as after every earlier
+//! parade. So memory counted there (by the example `soak`) should be equal: a difference is a leak.
 //! Nothing here reads a clock or prints; the seed determines everything.
+//!
+//! | unit | content |
+//! |---|---|
+//! | step | bodies move: none, one, a few, all; some twice, some far away or out of loose boxes |
+//! | | one other call: add, remove, rebuild, filter, ignore, loose box, motions, another mesh |
+//! | | or a call that must be refused |
+//! | | perhaps an edit of a mesh |
+//! | | perhaps a query before, and one after |
+//! | | once in eight steps: the comparison (`fresh`) |
+//! | parade | every body goes, the same ones come and meet in one heap, all queries are asked |
 
 mod edits;
 mod fresh;
+mod kinds;
 mod random;
 mod shapes;
 
+use kinds::{Much, every_kind};
 use pliant::{
     BodyId, CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, EdgeEdge, EdgeEdgeImpact, Error,
     ErrorKind, Impact, Options, Pair, Scalar, Selection, VertexTriangle, VertexTriangleImpact,
@@ -29,20 +31,20 @@ use random::Random;
 use shapes::Surface;
 use std::ops::ControlFlow;
 
-/// Bodies come when there are fewer, and go when there are more.
+/// Range of the number of bodies: bodies come below it, and go above it.
 const FEWEST: usize = 150;
 const MOST: usize = 250;
-/// Bodies of a parade.
+/// Number of bodies of a parade.
 const PARADE: usize = 200;
-/// Bodies live in a cube of this side, in which each meets a few others.
+/// Side of the cube in which bodies live. Each meets a few others there.
 const SIDE: f64 = 12.0;
-/// How far many bodies go at once, on each axis.
+/// Longest motion of one of many bodies, on each axis.
 const SHIFT: f64 = 1.0 / 8.0;
-/// The widest margin that is asked for, and the longest distance of close pairs.
+/// Widest margin of candidates, and longest distance of close pairs, that is asked for.
 const FAR_APART: f64 = 0.05;
 const FAR_BUT_CLOSE: f64 = 0.02;
 
-/// What went wrong: the step, and what was expected.
+/// A wrong answer: the step, and the expectation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wrong(pub String);
 
@@ -54,70 +56,70 @@ impl std::fmt::Display for Wrong {
 
 impl std::error::Error for Wrong {}
 
-/// What has been done so far.
+/// Counts of what was done so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
     /// Steps played.
     pub steps: u64,
-    /// Bodies added, those of parades included.
+    /// Bodies added, including the bodies of parades.
     pub added: u64,
     /// Bodies removed.
     pub removed: u64,
-    /// Shapes taken over.
+    /// Shapes set.
     pub moved: u64,
     /// Edits of meshes.
     pub edited: u64,
-    /// Calls that were refused, as they had to be.
+    /// Calls that were refused, as required.
     pub refused: u64,
     /// Comparisons with a fresh world.
     pub compared: u64,
-    /// Pairs that were the same in both, between bodies and within them.
+    /// Pairs equal in both worlds, between bodies and within them.
     pub pairs: u64,
-    /// Candidates that were the same in both.
+    /// Candidates equal in both worlds.
     pub near: u64,
-    /// Close pairs that were the same in both, with all figures.
+    /// Close pairs equal in both worlds, with all figures.
     pub close: u64,
-    /// Impacts that were the same in both, with their times.
+    /// Impacts equal in both worlds, with their times.
     pub met: u64,
-    /// Distances of bodies that were as good as the same in both.
+    /// Distances of bodies equal in both worlds, except for rounding.
     pub distances: u64,
 }
 
-/// What is known of a body: enough to build it anew.
+/// Data of a body, enough to build it anew.
 struct Known<S> {
     id: BodyId,
-    /// That it came with, or was given since; and its mesh, if edits have changed it.
+    /// Original or last surface; and the mesh, if edits have changed it.
     surface: usize,
     edited: Option<Vec<[u32; 3]>>,
     place: [f64; 3],
     positions: Vec<[S; 3]>,
-    /// The shape at the end of its motion, if it has one.
+    /// Shape at the end of the motion, if it has one.
     end: Option<Vec<[S; 3]>>,
     membership: u32,
     mask: u32,
     loose: Option<([S; 3], [S; 3])>,
 }
 
-/// A world that lives, and what is known of it.
+/// A long-lived world, and the data to build its like.
 pub struct Soak<S: Scalar> {
     world: World<S>,
-    /// In the order of ids.
+    /// Data of all bodies, in the order of ids.
     known: Vec<Known<S>>,
     ignored: Vec<(BodyId, BodyId)>,
     /// Ids that were removed last.
     gone: Vec<BodyId>,
     surfaces: Vec<Surface>,
     random: Random,
-    /// Where the cube is now.
+    /// Present offset of the cube.
     here: f64,
-    /// How far away it is at other times, and how far a body is that is sent away alone.
+    /// Offset of the cube at other times, and of a body that is sent away alone.
     far: [f64; 2],
     convert: fn(f64) -> S,
     tally: Tally,
 }
 
 impl Soak<f32> {
-    /// A world of 32-bit coordinates. Bodies that are sent away go a long way: boxes are exact everywhere.
+    /// A world of 32-bit coordinates. Bodies are sent a long way away: boxes are exact everywhere.
     pub fn single(options: Options, seed: u64) -> Self {
         Self::new(options, seed, [1000.0, 1e30], |x| x as f32)
     }
@@ -146,12 +148,12 @@ impl<S: Scalar> Soak<S> {
         }
     }
 
-    /// What has been done so far.
+    /// Counts of what was done so far.
     pub fn tally(&self) -> Tally {
         self.tally
     }
 
-    /// The bodies there are now, and their triangles.
+    /// Number of bodies, and of their triangles.
     pub fn size(&self) -> [usize; 2] {
         let triangles = |body: &Known<S>| self.mesh(body).len();
         [self.known.len(), self.known.iter().map(triangles).sum()]
@@ -161,7 +163,7 @@ impl<S: Scalar> Soak<S> {
     ///
     /// # Errors
     ///
-    /// What the library did otherwise than it should have.
+    /// A wrong answer of the library.
     pub fn step(&mut self) -> Result<(), Wrong> {
         self.tally.steps += 1;
         while self.known.len() < FEWEST {
@@ -170,21 +172,22 @@ impl<S: Scalar> Soak<S> {
         let moved = self.tally.moved;
         self.move_some()?;
         let still = moved == self.tally.moved;
-        // Asked before and after: what is true or found already must not outlive the call.
+        // Before and after the call: whatever is valid or found already must not outlive it.
         self.ask_something()?;
         self.call_something()?;
         if self.random.one_in(2) {
             self.edit()?;
         }
         self.ask_something()?;
-        // Movement makes much be found anew; where there was none, more can be stale.
+        // Movement renews much. Without it, more can be stale.
         if self.random.one_in(if still { 3 } else { 12 }) {
             self.compare_with_a_fresh_world()?;
         }
         Ok(())
     }
 
-    /// Replaces all bodies by those of every parade, heaped up in one place, and asks everything.
+    /// Replaces all bodies by the bodies of every parade, heaped up in one place, and asks every
+    /// query.
     ///
     /// # Errors
     ///
@@ -202,7 +205,8 @@ impl<S: Scalar> Soak<S> {
             self.add_one(surface, place)?;
         }
         self.random = random;
-        // All apart, all in one place, and back: the longest lists of bodies that may meet. To find these bodies is enough.
+        // All apart, all in one place, and back: the longest lists of bodies that may meet. Only
+        // these lists matter here.
         for (apart, together) in [(4.0, 0.0), (0.0, 1.0), (0.0, 0.0)] {
             for number in 0..PARADE {
                 let Known {
@@ -218,7 +222,7 @@ impl<S: Scalar> Soak<S> {
             let prepared = self.world.intersections(Selection::World).prepare();
             self.good("prepare", prepared)?;
         }
-        // The longest list that two bodies can make: the largest surface twice, in one point.
+        // The longest list of pairs of two bodies: the largest surface twice, in one point.
         let large = [0, self.surfaces.len()];
         let shapes = large.map(|place| self.known[place].positions.clone());
         for place in large {
@@ -233,21 +237,22 @@ impl<S: Scalar> Soak<S> {
         if self.good("a query", every)? != triangles * triangles {
             return self.wrong("in one point every pair of triangles meets");
         }
-        // And with all others, each with itself too: single bodies of random steps are in one point when they are very far away.
+        // With all others, and each with itself. In random steps, single bodies are in one point
+        // when they are very far away.
         let every = self.world.intersections(Selection::Everything).all();
         let every = every.map(<[_]>::len);
         self.good("a query", every)?;
-        // And of what is near, on the longest way: no step asks for a wider margin.
+        // Candidates along the longest motion. No step asks for a wider margin.
         for number in 0..PARADE {
             let end = self.shifted(number, [SHIFT / 2.0; 3]);
             let set = self.world.set_motion(self.known[number].id, &end);
             self.good("set_motion", set)?;
             self.known[number].end = Some(end);
         }
-        let near = Near::of(&mut self.world, FAR_APART);
-        self.good("what is near", near)?;
-        let close = AllClose::of(&mut self.world, FAR_BUT_CLOSE);
-        self.good("what is close", close)?;
+        for kind in every_kind::<S>() {
+            let all = (kind.ask)(&mut self.world, Selection::Everything, FAR_APART, Much::All);
+            self.good(kind.name, all)?;
+        }
         let met = Met::of(&mut self.world, 1e-6, 0.0);
         self.good("what meets", met)?;
         self.compare_with_a_fresh_world()?;
@@ -258,12 +263,12 @@ impl<S: Scalar> Soak<S> {
         Ok(())
     }
 
-    /// A place in the cube.
+    /// A random place in the cube.
     fn somewhere(&mut self) -> [f64; 3] {
         [(); 3].map(|()| self.here + self.random.unit() * SIDE)
     }
 
-    /// A shape for a body at a place, as the world takes it.
+    /// A random shape of a surface at a place, in the world's precision.
     fn shape(&mut self, surface: usize, place: [f64; 3]) -> Vec<[S; 3]> {
         self.surfaces[surface]
             .somewhere(&mut self.random, place)
@@ -272,7 +277,8 @@ impl<S: Scalar> Soak<S> {
             .collect()
     }
 
-    /// Another shape of a body at a place: vertices that edits have added go round those of the surface again.
+    /// A random shape of a body at a place. Vertices that edits added reuse positions of the
+    /// surface.
     fn shape_of(&mut self, body: usize, place: [f64; 3]) -> Vec<[S; 3]> {
         let Known {
             surface, positions, ..
@@ -326,13 +332,13 @@ impl<S: Scalar> Soak<S> {
     }
 
     fn move_some(&mut self) -> Result<(), Wrong> {
-        // Now and then everything is somewhere else.
+        // Now and then the whole cube is elsewhere.
         if self.random.one_in(100) {
             self.here = if self.here == 0.0 { self.far[0] } else { 0.0 };
         }
         let count = [0, 1, 1, 3, 10, self.known.len()][self.random.index(6)];
         for number in 0..count {
-            // All, or some, which may be one twice.
+            // All bodies, or some, perhaps one of them twice.
             let body = if count == self.known.len() {
                 number
             } else {
@@ -356,7 +362,8 @@ impl<S: Scalar> Soak<S> {
         Ok(())
     }
 
-    /// Gives a body a new shape in one of the two ways; whether it was taken over, as it must be inside the loose box.
+    /// Sets a shape in one of the two ways. Returns whether it was accepted, as it must be inside
+    /// the loose box.
     fn take_over(
         &mut self,
         place: usize,
@@ -373,7 +380,7 @@ impl<S: Scalar> Soak<S> {
         self.is_held(place, positions, answer)
     }
 
-    /// Whether a shape was taken over, as it must be unless it sticks out of the loose box.
+    /// Whether a shape was accepted, as it must be unless it reaches out of the loose box.
     fn is_held(
         &mut self,
         place: usize,
@@ -402,7 +409,7 @@ impl<S: Scalar> Soak<S> {
         Ok(true)
     }
 
-    /// One call that is not a movement.
+    /// Makes one call that is no movement.
     fn call_something(&mut self) -> Result<(), Wrong> {
         let some = self.random.index(self.known.len());
         let id = self.known[some].id;
@@ -440,13 +447,13 @@ impl<S: Scalar> Soak<S> {
         }
     }
 
-    /// Sends some bodies on their way; those that would leave their loose box stay as they are.
+    /// Gives some bodies motions. A body that would leave its loose box stays as it is.
     fn begin_motions(&mut self) -> Result<(), Wrong> {
         let count = [1, 3, self.known.len()][self.random.index(3)];
         for _ in 0..count {
             let some = self.random.index(self.known.len());
             let Known { id, place, .. } = self.known[some];
-            // One goes anywhere on its way; many a little, or there were more to find than at any parade.
+            // One body goes anywhere; many go a little, so that no step finds more than a parade.
             let end = if count == 1 {
                 self.shape_of(some, place)
             } else {
@@ -468,14 +475,14 @@ impl<S: Scalar> Soak<S> {
         Ok(())
     }
 
-    /// The shape of a body carried away.
+    /// Shape of a body, carried away.
     fn shifted(&self, some: usize, by: [f64; 3]) -> Vec<[S; 3]> {
         let carried =
             |p: &[S; 3]| std::array::from_fn(|axis| (self.convert)(p[axis].to_f64() + by[axis]));
         self.known[some].positions.iter().map(carried).collect()
     }
 
-    /// Bodies arrive, or stop on the way.
+    /// Ends motions: bodies arrive, or stop on the way.
     fn end_motions(&mut self) -> Result<(), Wrong> {
         let part = self.random.unit();
         if self.random.one_in(2) {
@@ -511,7 +518,8 @@ impl<S: Scalar> Soak<S> {
         Ok(())
     }
 
-    /// Gives a body another mesh: another surface, at the same place; refused if it sticks out of the loose box.
+    /// Gives a body the mesh of another surface, at its place. Refused if that reaches out of the
+    /// loose box.
     fn cut(&mut self, some: usize) -> Result<(), Wrong> {
         let Known { id, place, .. } = self.known[some];
         let surface = self.random.index(self.surfaces.len());
@@ -530,7 +538,7 @@ impl<S: Scalar> Soak<S> {
         if a == b {
             return Ok(());
         }
-        // Half the time what is ignored is taken back, in either order.
+        // Half the time an ignored pair is restored, named in either order.
         match self.ignored.len() {
             some @ 1.. if self.random.one_in(2) => {
                 let (a, b) = self.ignored.swap_remove(self.random.index(some));
@@ -547,7 +555,7 @@ impl<S: Scalar> Soak<S> {
         }
     }
 
-    /// Puts a body into a loose box, from which later shapes may stick out, or lets it go.
+    /// Puts a body into a loose box, out of which later shapes may reach, or releases it.
     fn hold_or_let_go(&mut self, some: usize) -> Result<(), Wrong> {
         let Known {
             id, loose, place, ..
@@ -582,7 +590,7 @@ impl<S: Scalar> Soak<S> {
         }
     }
 
-    /// Calls that are refused, and change nothing: the next comparison would see it.
+    /// Makes calls that must be refused and change nothing: the next comparison would see it.
     fn ask_what_must_be_refused(&mut self, some: usize) -> Result<(), Wrong> {
         let Known {
             id, surface, place, ..
@@ -592,7 +600,13 @@ impl<S: Scalar> Soak<S> {
         bad[vertex][self.random.index(3)] = (self.convert)(
             [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e39][self.random.index(4)],
         );
-        let bad_position = |answer: Result<(), Error>| matches!(answer, Err(Error { body: Some(body), kind: ErrorKind::BadPosition { vertex: said, .. } }) if (body, said) == (id, vertex));
+        let bad_position = |answer: Result<(), Error>| match answer {
+            Err(Error {
+                body: Some(body),
+                kind: ErrorKind::BadPosition { vertex: said, .. },
+            }) => (body, said) == (id, vertex),
+            _ => false,
+        };
         let nan = (self.convert)(f64::NAN);
         let world = &mut self.world;
         let mut refused = vec![
@@ -629,7 +643,7 @@ impl<S: Scalar> Soak<S> {
         Ok(())
     }
 
-    /// A query between comparisons, so that boxes are true in parts when the next step comes.
+    /// Asks a query between comparisons, so that some boxes are valid when the next step comes.
     fn ask_something(&mut self) -> Result<(), Wrong> {
         let [a, b] = [(); 2].map(|()| self.known[self.random.index(self.known.len())].id);
         let answer = match self.random.below(12) {
@@ -640,7 +654,7 @@ impl<S: Scalar> Soak<S> {
                 .map(drop),
             1 => self.world.intersections(Selection::World).first().map(drop),
             2 => {
-                // A visitor that stops somewhere on the way leaves boxes made in part.
+                // A visitor that stops on the way leaves some boxes valid.
                 let mut left = self.random.below(50);
                 let visit = |_: Pair| match left.checked_sub(1) {
                     Some(fewer) => {
@@ -669,24 +683,22 @@ impl<S: Scalar> Soak<S> {
                 .map(drop),
             6 if a != b => self.world.distance(a, b, f64::INFINITY).map(drop),
             7 => self.world.nearest_body(a, SIDE / 4.0).map(drop),
-            8 => {
-                let close = self
-                    .world
-                    .close_triangle_pairs(Selection::World, FAR_BUT_CLOSE);
-                close.first().map(drop)
-            }
-            9 => {
-                let close = self
-                    .world
-                    .close_edge_edge_pairs(Selection::Within(a), FAR_BUT_CLOSE);
-                close.all().map(drop)
+            8 | 9 => {
+                let kinds = every_kind::<S>();
+                let kind = &kinds[self.random.index(kinds.len())];
+                let (of, much) = if self.random.one_in(2) {
+                    (Selection::World, Much::First)
+                } else {
+                    (Selection::Within(a), Much::All)
+                };
+                (kind.ask)(&mut self.world, of, FAR_BUT_CLOSE, much).map(drop)
             }
             _ => Ok(()),
         };
         self.good("a query", answer)
     }
 
-    /// What a call on good input gives.
+    /// Result of a call with good input; an error is a wrong answer.
     fn good<T>(&self, call: &str, answer: Result<T, Error>) -> Result<T, Wrong> {
         answer.or_else(|error| self.wrong(format!("{call} was refused: {error}")))
     }
@@ -700,7 +712,7 @@ fn inside<S: Scalar>((lo, hi): ([S; 3], [S; 3]), point: [S; 3]) -> bool {
     (0..3).all(|axis| lo[axis] <= point[axis] && point[axis] <= hi[axis])
 }
 
-/// Vertices near triangles, and edges near edges.
+/// Candidates: vertices near triangles, and edges near edges.
 struct Near {
     vertex_triangle: Vec<VertexTriangle>,
     edge_edge: Vec<EdgeEdge>,
@@ -716,7 +728,7 @@ impl Near {
     }
 }
 
-/// All that is close, with figures.
+/// Close pairs of all kinds, with figures.
 struct AllClose {
     vertex_triangle: Vec<CloseVertexTriangle>,
     edge_edge: Vec<CloseEdgeEdge>,
@@ -745,7 +757,7 @@ impl AllClose {
     }
 }
 
-/// All that meets on the way, and how far everything may go.
+/// Impacts, the first impact, and free steps.
 struct Met {
     vertex_triangle: Vec<VertexTriangleImpact>,
     edge_edge: Vec<EdgeEdgeImpact>,

@@ -1,6 +1,6 @@
-//! A small source of numbers; the same on every machine (SplitMix64).
+//! Small pseudorandom generator (SplitMix64), the same on every machine.
 
-/// Numbers that a seed determines.
+/// A pseudorandom sequence, determined by its seed.
 pub(super) struct Random(u64);
 
 impl Random {
@@ -16,22 +16,22 @@ impl Random {
         mixed ^ mixed >> 31
     }
 
-    /// Below `range`, which is not 0.
+    /// A number below `range`, which is not 0.
     pub(super) fn below(&mut self, range: u32) -> u32 {
         (((self.next() >> 32) * u64::from(range)) >> 32) as u32
     }
 
-    /// A place in a list of so many, which is not empty.
+    /// A place in a list of length `count`, which is not 0.
     pub(super) fn index(&mut self, count: usize) -> usize {
         self.below(count as u32) as usize
     }
 
-    /// In [0, 1).
+    /// A number in [0, 1).
     pub(super) fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// True once in so many times.
+    /// True with probability 1 / `times`.
     pub(super) fn one_in(&mut self, times: u32) -> bool {
         self.below(times) == 0
     }

@@ -1,16 +1,17 @@
-//! What bodies of a soak look like: a few meshes, and shapes that have little in common from one call to the next.
+//! Surfaces of a soak test, and random shapes that share little from one call to the next.
 
 use super::random::Random;
 use pliant_scenes::Scene;
 
-/// A mesh and the shape it is deformed from, about as large as the unit cube.
+/// A mesh and its original shape, about as large as the unit cube.
 pub(super) struct Surface {
     pub(super) triangles: Vec<[u32; 3]>,
     rest: Vec<[f64; 3]>,
 }
 
-/// Closed and open surfaces of 2 to 128 triangles, the largest first; vertices that no triangle uses; and triangles that are no
-/// surface at all.
+/// Surfaces of 2 to 128 triangles, the largest first.
+///
+/// Closed and open ones, one with unused vertices, and triangles that form no surface.
 pub(super) fn surfaces() -> Vec<Surface> {
     let mut all: Vec<Surface> = [
         ("spheres", 128),
@@ -37,7 +38,8 @@ pub(super) fn surfaces() -> Vec<Surface> {
     };
     with_unused.rest.extend([[0.0; 3], [1.0; 3], [0.5; 3]]);
     all.push(with_unused);
-    // Corners on a lattice of five points a side, so that triangles of one body touch, coincide and degenerate.
+    // Corners on a lattice of five points a side: triangles of one body touch, coincide and
+    // degenerate.
     let mut random = Random::new(5);
     let places = 30;
     all.push(Surface {
@@ -51,7 +53,7 @@ pub(super) fn surfaces() -> Vec<Surface> {
     all
 }
 
-/// The same shape, moved and scaled so that its longest side goes from 0 to 1.
+/// The shape, moved and scaled so that its longest side goes from 0 to 1.
 fn into_unit_cube(positions: &[[f32; 3]]) -> Vec<[f64; 3]> {
     let side = |axis: usize| {
         let values = positions
@@ -73,7 +75,7 @@ fn into_unit_cube(positions: &[[f32; 3]]) -> Vec<[f64; 3]> {
 }
 
 impl Surface {
-    /// A shape at a place: crumpled, and now and then put on a lattice, flattened, or drawn together into a point.
+    /// A random shape at a place: crumpled, and sometimes on a lattice, flat, or a single point.
     pub(super) fn somewhere(&self, random: &mut Random, place: [f64; 3]) -> Vec<[f64; 3]> {
         let crumple = [0.0, 0.03, 0.2][random.index(3)];
         let [on_lattice, flat, point] = [20, 30, 100].map(|rarely| random.one_in(rarely));
@@ -84,7 +86,7 @@ impl Surface {
                     let x = rest[axis] + crumple * (random.unit() - 0.5);
                     let x = place[axis] + if point { 0.0 } else { x };
                     match axis {
-                        // Whole planes in common: flattened bodies overlap one another.
+                        // Common planes: flattened bodies overlap one another.
                         2 if flat => x.floor(),
                         _ if on_lattice => (x * 4.0).round() / 4.0,
                         _ => x,

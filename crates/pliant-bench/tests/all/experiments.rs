@@ -1,4 +1,4 @@
-//! Every experiment in its small form: all methods right, and the record as its documented schema says.
+//! Every experiment in its small form: all methods are right, and the record keeps to its schema.
 
 use pliant_bench::contest::{Contender, Contest, Query};
 use pliant_bench::decision::exact;
@@ -35,11 +35,12 @@ fn versions_in_a_record_are_those_that_were_compiled() {
 fn small_forms_are_right_and_keep_to_the_schema() {
     let (schemas, schema) = schema();
     for (number, experiment) in EXPERIMENTS.iter().enumerate() {
-        // What several rounds become is the same for all.
+        // One experiment suffices to show what several rounds become.
         let rounds = if number == 0 { 2 } else { 1 };
         let mut steps = 0;
         let done = experiment.run(Form::Small, rounds, &mut |_, played| steps += played);
-        // Methods that are wrong are not timed, so progress may fall short of what was planned; never beyond.
+        // Methods that are wrong are not timed: progress may fall short of the plan, but never
+        // exceeds it.
         assert!(
             steps > 0 && steps <= experiment.length(Form::Small, rounds),
             "{}",
@@ -47,7 +48,7 @@ fn small_forms_are_right_and_keep_to_the_schema() {
         );
         assert!(!done.contests.is_empty() && !done.claims.is_empty());
         for contest in &done.contests {
-            // The bodies of `bodies` are still on their way: it is about the broad phase.
+            // Most bodies of `bodies` are still apart: it is about the broad phase.
             let idle = contest.name.ends_with("bodies");
             assert!(
                 contest.pairs.iter().sum::<usize>() > 0 || idle,
@@ -84,7 +85,7 @@ fn small_forms_are_right_and_keep_to_the_schema() {
         schemas
             .validate(&json, schema)
             .unwrap_or_else(|error| panic!("{}: {error:#}", experiment.name));
-        // And the text is read back as it was, unknown members refused.
+        // The text is read back unchanged, and unknown members are refused.
         let again: Record = serde_json::from_value(json.clone()).unwrap();
         assert_eq!(serde_json::to_value(again).unwrap(), json);
     }

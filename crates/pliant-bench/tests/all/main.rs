@@ -1,4 +1,5 @@
-//! The tests of the crate, one file a module, in one program: a program each is linked with the whole library each time.
+//! Tests of the crate, one file a module, in one program: linking the library once saves time.
+//!
 //! One file: `cargo test -p pliant-bench --test all experiments::`.
 
 mod experiments;

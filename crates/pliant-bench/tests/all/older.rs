@@ -1,4 +1,5 @@
-//! The older methods against the reference: every variant, on scenes, turned and far away, on bodies that are hardly any.
+//! Older methods against the reference: every variant, on scenes, turned and far away, on tiny
+//! bodies.
 
 use pliant::{Degree, reference};
 use pliant_bench::decision::exact;
@@ -31,7 +32,7 @@ fn shapes(frame: &[Placed]) -> Vec<Shape<'_>> {
     frame.iter().map(Placed::shape).collect()
 }
 
-/// No tree and no boxes but those of whole bodies.
+/// Pairs between bodies by the reference: no tree, and no boxes except boxes of whole bodies.
 fn pairs_between(motion: &Motion, frame: &[Placed]) -> Vec<Pair> {
     let extent = |body: usize, axis: usize| {
         let values = frame[body].world.iter().map(|position| position[axis]);
@@ -70,14 +71,14 @@ fn pairs_within(motion: &Motion, frame: &[Placed]) -> Vec<Pair> {
     pairs
 }
 
-/// What is asked of a motion.
+/// Query of a motion.
 #[derive(Clone, Copy, PartialEq)]
 enum Ask {
     Between,
     Within,
 }
 
-/// Plays a motion with every method; how many pairs there were in all.
+/// Plays a motion with every method. Returns the total number of pairs.
 fn play(motion: &Motion, ask: Ask) -> usize {
     let mut methods = methods();
     for method in &mut methods {
@@ -118,7 +119,7 @@ fn scene(name: &str, triangles: usize) -> Scene {
 
 #[test]
 fn scenes_with_jumps() {
-    // Forth, back, far, and not at all.
+    // Forward, back, far, and not at all.
     let steps = [1, 62, 63, 200, 2, 120, 120, 199];
     for (name, triangles) in [
         ("spheres", 320),
@@ -142,7 +143,8 @@ fn scenes_with_jumps() {
 fn bodies_and_themselves() {
     let cloth = Motion::of_scene(&scene("cloth", 800), [1, 40, 50, 3]);
     assert!(play(&cloth, Ask::Within) > 100);
-    // No arms reach through their own body here; one step with the vertices mixed up, so that all is one knot.
+    // No arms reach through their own body here. In one step the vertices are shuffled, so that all
+    // is one knot.
     let mut arms = Motion::of_scene(&scene("arms", 80), [5, 180]);
     arms.bodies.truncate(2);
     for frame in &mut arms.frames {
@@ -161,7 +163,7 @@ fn bodies_and_themselves() {
     assert!(play(&arms, Ask::Within) > 100);
 }
 
-/// Numbers that look random: splitmix64.
+/// Pseudorandom numbers (SplitMix64).
 struct Random(u64);
 
 impl Random {
@@ -172,7 +174,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// From -1 to 1.
+    /// A number from -1 to 1.
     fn signed(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
@@ -181,7 +183,7 @@ impl Random {
         std::array::from_fn(|_| size * self.signed())
     }
 
-    /// From a random quaternion.
+    /// Rotation matrix of a random quaternion.
     fn rotation(&mut self) -> [[f64; 3]; 3] {
         loop {
             let q: [f64; 4] = std::array::from_fn(|_| self.signed());
@@ -211,7 +213,7 @@ impl Random {
     }
 }
 
-/// The pose `outer` of what has the pose `inner` in it.
+/// Composition of two poses: first `inner`, then `outer`.
 fn after(outer: &Pose, inner: &Pose) -> Pose {
     let product = |row: [f64; 3], column: usize| -> f64 {
         (0..3).map(|i| row[i] * inner.rotation[i][column]).sum()
@@ -300,7 +302,7 @@ fn bodies_that_are_hardly_any() {
     let point = (vec![[0, 1, 2]], world(&[[0.25, 0.25, 0.0]; 3]));
     let pile = (vec![[0, 1, 2]; 50], world(&corner));
     let far = (vec![[0, 1, 2]], world(&corner.map(|p| p.map(|x| x + 1e4))));
-    // Each triangle with vertices of its own, so that the pile meets itself.
+    // Each triangle has vertices of its own, so that the pile meets itself.
     let loose: Vec<[u32; 3]> = (0..20).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     let heap = (loose, world(&corner.repeat(20)));
     let motion = of_bodies("hardly any", vec![one, point, pile, far, heap]);
@@ -337,7 +339,8 @@ fn a_body_without_a_pose_is_where_it_is() {
         assert_eq!(run(Frame::Local, &bare), run(Frame::Local, &told));
         let world = run(Frame::World, &bare);
         assert_eq!(world, run(Frame::World, &told));
-        // Six axes of one frame are three: the same trees, the same tests but for those that touch within the wider margin.
+        // Six axes of one frame are three: the same trees and tests, except for boxes that touch in
+        // the wider margin.
         for ((local_pairs, local), (pairs, work)) in run(Frame::Local, &bare).iter().zip(&world) {
             assert_eq!(local_pairs, pairs);
             assert_eq!(local.boxes, work.boxes);
@@ -347,7 +350,7 @@ fn a_body_without_a_pose_is_where_it_is() {
     }
 }
 
-/// What a method did depends on the trees and on the shape now, not on what was before.
+/// Counters depend on the trees and the present shape, not on earlier shapes.
 #[test]
 fn counters_have_no_memory() {
     let motion = Motion::of_scene(&scene("spheres", 1_280), [3, 180, 90, 200]);
@@ -396,8 +399,10 @@ fn the_first_pair_is_found_early() {
     }
 }
 
-/// Triangles that meet in one vertex, in the world to the bit, and whose boxes in the local frames touch there but for
-/// rounding, the most that rounding can do: nothing is lost.
+/// Triangles that share one vertex are found, in any frame.
+///
+/// In the world the vertex is shared to the bit. In the local frames the boxes touch there except
+/// for rounding, the most that rounding can do.
 #[test]
 fn what_touches_is_found_in_any_frame() {
     let mut random = Random(2);
@@ -416,7 +421,8 @@ fn what_touches_is_found_in_any_frame() {
                 f64::from(meeting[axis]) + 0.49 * spacing * random.signed()
             })
         };
-        // A corner at the meeting point; the other two on the lower side of it along `axis` of the frame.
+        // A corner at the meeting point. The other two are on its lower side along `axis` of the
+        // frame.
         let corner = |pose: &Pose, sign: f64, random: &mut Random| {
             let at = back(pose, near_meeting(random));
             let other = |random: &mut Random| {
@@ -427,8 +433,8 @@ fn what_touches_is_found_in_any_frame() {
             [at, other(random), other(random)]
         };
         let below = placed(a, &corner(&a, 1.0, &mut random));
-        // On the other side a triangle in a parallel frame elsewhere, or a point in a frame turned anyhow: the two bodies
-        // whose boxes are as tight in the frame of the first as in their own.
+        // On the other side a triangle in a parallel frame elsewhere, or a point in any other
+        // frame. The boxes of both are as tight in the first frame as in their own.
         let mut b = Pose {
             rotation: a.rotation,
             translation: random.vector(far),
@@ -456,7 +462,7 @@ fn what_touches_is_found_in_any_frame() {
     }
 }
 
-/// The point of a frame that is at a place in the world.
+/// Local point of a frame at a place in the world.
 fn back(pose: &Pose, place: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|column| {
         (0..3)
@@ -465,7 +471,8 @@ fn back(pose: &Pose, place: [f64; 3]) -> [f64; 3] {
     })
 }
 
-/// The margin is for rounding and no more: what is a ten-thousandth of its size apart is not decided.
+/// The margin is for rounding and no more: bodies a ten-thousandth of their size apart are not
+/// decided.
 #[test]
 fn what_is_apart_by_more_than_rounding_is_not_decided() {
     let mut random = Random(3);
@@ -485,7 +492,7 @@ fn what_is_apart_by_more_than_rounding_is_not_decided() {
     }
 }
 
-/// The first time the methods find out how much memory they need.
+/// In the first replay the methods learn how much memory they need.
 #[test]
 fn a_second_replay_allocates_nothing() {
     let motion = Motion::of_scene(&scene("crowd", 320), [1, 150, 40]);

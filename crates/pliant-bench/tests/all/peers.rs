@@ -1,5 +1,6 @@
-//! Brute force, the sweep, and parry3d and obvhs where they are compiled, give the pairs of the library's
-//! reference: no tree, no box, exact signs.
+//! Brute force, the sweep, and peers that are compiled, against the library's reference.
+//!
+//! The reference has no tree and no box, and decides by exact signs.
 
 use pliant::reference;
 use pliant_bench::decision;
@@ -32,7 +33,7 @@ fn every_method_with(decision: decision::Decision) -> Vec<Box<dyn Method>> {
 /// Positions of every body.
 type Frame = Vec<Vec<[f32; 3]>>;
 
-/// Bodies in motion; the first frame is what trees are built on.
+/// Bodies in motion. Trees are built on the first frame.
 struct Play {
     triangles: Vec<Vec<[u32; 3]>>,
     frames: Vec<Frame>,
@@ -57,7 +58,7 @@ impl Play {
         }
     }
 
-    /// What the reference says of pairs of bodies.
+    /// Pairs of different bodies, by the reference.
     fn between(&self, frame: &Frame) -> Vec<Pair> {
         let triangles = &self.triangles;
         let mut all = Vec::new();
@@ -77,7 +78,7 @@ impl Play {
         all
     }
 
-    /// What the reference says of bodies with themselves.
+    /// Pairs of each body with itself, by the reference.
     fn within(&self, frame: &Frame) -> Vec<Pair> {
         let mut all = Vec::new();
         for (body, positions) in frame.iter().enumerate() {
@@ -98,7 +99,8 @@ impl Play {
         method.build(&meshes);
     }
 
-    /// Plays all frames with every method. The number of pairs between bodies, and within.
+    /// Plays all frames with every method. Returns the number of pairs between bodies and within
+    /// them.
     fn check(&self) -> [usize; 2] {
         let mut methods = every_method();
         for method in &mut methods {
@@ -156,7 +158,7 @@ fn a_cloth_with_itself() {
     assert!(within > 100, "{within}");
 }
 
-/// Whole numbers below a bound, as good as random.
+/// Pseudorandom whole numbers below a bound.
 struct Random(u64);
 
 impl Random {
@@ -167,8 +169,10 @@ impl Random {
         (self.0 >> 32) % bound
     }
 
-    /// Triangle soups on a small lattice: coplanar, touching, degenerate and equal triangles everywhere. In the last frame the
-    /// bodies are far from each other.
+    /// Triangle soups on a small lattice: coplanar, touching, degenerate and equal triangles
+    /// everywhere.
+    ///
+    /// In the last frame the bodies are far from each other.
     fn soups(&mut self, triangles: u64, side: u64) -> Play {
         let vertices = triangles + 2;
         let mut three = |bound| [(); 3].map(|()| self.below(bound) as u32);

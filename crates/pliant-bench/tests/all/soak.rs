@@ -1,13 +1,13 @@
-//! The soak in short; `cargo run --release -p pliant-bench --example soak` is the long one.
+//! Short soak test. The long one is `cargo run --release -p pliant-bench --example soak`.
 
 use pliant::{BroadPhase, Options};
 use pliant_bench::soak::{Soak, Tally};
 
-/// Parades, and the steps before each.
+/// Number of parades, and of steps before each.
 const PARADES: usize = 3;
 const STEPS: usize = 25;
 
-/// The heap at the second parade and at the last, and what was done.
+/// Heap at the second and at the last parade, and the counts of what was done.
 fn play<S: pliant::Scalar>(mut soak: Soak<S>) -> ([i64; 2], Tally) {
     let mut now = 0;
     let heap = [0; PARADES].map(|_: i64| {

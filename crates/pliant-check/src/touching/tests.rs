@@ -1,8 +1,9 @@
-//! Solids of tetrahedra: what touches and what passes is read off the tetrahedra, and no sign of orientation is asked.
+//! Solids of tetrahedra, whose contacts are known without any sign of orientation.
 //!
-//! Cubes of the integer grid are cut into six tetrahedra each (Freudenthal), which in the grid of twice the size hold those of the smaller one. Surfaces
-//! of sets of either grid never cross: their triangles are joined from those of the small grid. So whatever passes through
-//! anything does it at edges and vertices.
+//! Cubes of the integer grid are cut into six tetrahedra each (Freudenthal). Tetrahedra of the grid
+//! of twice the size are unions of tetrahedra of the small one. So surfaces of sets of either grid
+//! never cross: their triangles are unions of triangles of the small grid. Whatever passes through
+//! anything does so at edges and vertices.
 
 use super::only_touch;
 use crate::joined::Meshes;
@@ -12,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 type Point = [i32; 3];
 
-/// Bodies that are sources each.
+/// Bodies, each a source of its own.
 struct Bodies(Vec<(Vec<[f64; 3]>, Vec<[u32; 3]>)>);
 
 impl Meshes for Bodies {
@@ -31,7 +32,7 @@ impl Meshes for Bodies {
 }
 
 impl Bodies {
-    /// All pairs and whether they are of places that only touch.
+    /// All pairs, with their kinds and whether their places only touch.
     fn told(&self) -> Vec<([u32; 4], ContactKind, bool)> {
         let mut world = World::<f64>::new();
         for (positions, triangles) in &self.0 {
@@ -49,7 +50,7 @@ impl Bodies {
             .collect()
     }
 
-    /// Whether all pairs, of which there are some, are left out; they have to agree.
+    /// Whether all pairs are left out. There must be some, and they must agree.
     fn only_touch(&self) -> bool {
         let told = self.told();
         assert!(!told.is_empty());
@@ -62,17 +63,18 @@ impl Bodies {
 /// A solid of tetrahedra: a union of boxes, each cut off by a plane of the grid.
 #[derive(Clone, Debug)]
 struct Solid {
-    /// How large a cube is.
+    /// Side of a cube, in units of the small grid.
     size: i32,
     boxes: Vec<Cut>,
 }
 
-/// Lower and upper corner, two axes, and what their coordinates at least differ by, all in cubes.
+/// A box in cubes: lower and upper corner, and a plane. The plane is two axes and the least
+/// difference of their coordinates.
 type Cut = (Point, Point, (usize, usize), i32);
 
 const CELLS: i32 = 6;
 
-/// The corners of the tetrahedra of a cube, as steps from its lowest corner.
+/// Corners of the six tetrahedra of a cube, which begins at `lowest`.
 fn tetrahedra(lowest: Point, size: i32) -> Vec<[Point; 4]> {
     let orders = [
         [0, 1, 2],
@@ -99,7 +101,7 @@ fn cubes(size: i32) -> impl Iterator<Item = Point> {
 }
 
 impl Solid {
-    /// Whether it has a tetrahedron of the small grid; four times its centre.
+    /// Whether the solid has a tetrahedron of the small grid, by four times its centre.
     fn has(&self, tetrahedron: &[Point; 4]) -> bool {
         let centre: Point = std::array::from_fn(|axis| tetrahedron.iter().map(|it| it[axis]).sum());
         self.boxes.iter().any(|&(lower, upper, (a, b), least)| {
@@ -110,7 +112,7 @@ impl Solid {
         })
     }
 
-    /// The faces of its surface, in cubes of its own size, turned outwards.
+    /// Triangles of the solid's surface, turned outwards, in cubes of its own size.
     fn surface(&self) -> Vec<[Point; 3]> {
         let own = Self {
             size: 1,
@@ -130,7 +132,7 @@ impl Solid {
     }
 }
 
-/// The faces of a tetrahedron: their corners sorted, and turned outwards.
+/// Faces of a tetrahedron: corners sorted, and turned outwards.
 fn faces_of(tetrahedron: &[Point; 4]) -> Vec<([Point; 3], [Point; 3])> {
     let faces = (0..4).map(|without| {
         let corners: Vec<Point> = (0..4)
@@ -156,7 +158,7 @@ fn volume([a, b, c]: [Point; 3], d: Point) -> i32 {
         + (u[0] * v[1] - u[1] * v[0]) * w[2]
 }
 
-/// Whether no edge has more than two faces, and the faces at a vertex are one fan.
+/// Whether every edge has two faces, and the faces at every vertex are one fan.
 fn is_manifold(surface: &[[Point; 3]]) -> bool {
     let mut at_edges: BTreeMap<[Point; 2], u32> = BTreeMap::new();
     let mut fans: BTreeMap<Point, Vec<BTreeSet<Point>>> = BTreeMap::new();
@@ -181,8 +183,10 @@ fn is_manifold(surface: &[[Point; 3]]) -> bool {
 /// A face, an edge or a vertex of the small grid.
 type Simplex = BTreeSet<Point>;
 
-/// What is on the surfaces of both: for each edge of the small grid the other edges of its contact by the lowest of them, and of the contact whether
-/// anything of the one surface is inside the other solid, outside of it, and the other way round.
+/// Common edges of two surfaces with the number of their contact, and the sides of each contact.
+///
+/// Sides of a contact: whether the first surface is outside the second solid, and inside it; then
+/// the reverse.
 fn contacts(solids: [&Solid; 2]) -> (BTreeMap<Simplex, usize>, Vec<[bool; 4]>) {
     let mut faces: BTreeMap<Simplex, Vec<[bool; 2]>> = BTreeMap::new();
     for tetrahedron in cubes(1).flat_map(|it| tetrahedra(it, 1)) {
@@ -191,7 +195,7 @@ fn contacts(solids: [&Solid; 2]) -> (BTreeMap<Simplex, usize>, Vec<[bool; 4]>) {
             faces.entry(face.into()).or_default().push(inside);
         }
     }
-    // At the end of the grid there is nothing beyond.
+    // Beyond the end of the grid there is nothing.
     for inside in faces.values_mut() {
         inside.resize(2, [false; 2]);
     }
@@ -280,7 +284,7 @@ fn solid() -> impl Strategy<Value = Solid> {
     })
 }
 
-/// What the cases were, so that it can be seen that there were some of each.
+/// Numbers of cases of each outcome, so that a test can require some of both.
 #[derive(Debug, Default)]
 struct Seen {
     passing: u32,
@@ -330,7 +334,10 @@ fn a_pin_in_its_hole_only_touches() {
     }
 }
 
-/// `map`: a linear map of the whole; `flips`: triangles that turn the other way; `together`: in one body.
+/// Compares two solids with the tetrahedra.
+///
+/// `map`: a linear map of the whole. `flips`: triangles that turn the other way. `together`: both
+/// solids in one body.
 fn look_at(solids: [&Solid; 2], map: [i32; 9], mut flips: u64, together: bool, seen: &mut Seen) {
     let surfaces = solids.map(Solid::surface);
     let det = volume(
@@ -389,7 +396,7 @@ fn look_at(solids: [&Solid; 2], map: [i32; 9], mut flips: u64, together: bool, s
             of_b(row[0], row[1]) != of_b(row[2], row[3])
         })
         .collect();
-    // A body of boxes touches itself nowhere else than at vertices that are one.
+    // A manifold of tetrahedra touches itself only at common vertices, whose pairs are left out.
     assert_eq!(between.len(), told.len());
     for (edge, _) in of_edges.iter().filter(|&(_, &number)| passes(number)) {
         let holds = |solid: usize, triangle: u32| {
@@ -417,7 +424,7 @@ fn look_at(solids: [&Solid; 2], map: [i32; 9], mut flips: u64, together: bool, s
     seen.passing += u32::from(any_passes);
 }
 
-/// Of a grid of points, two triangles a square.
+/// A sheet over a grid of points, two triangles a square.
 fn sheet(
     columns: std::ops::RangeInclusive<i32>,
     at: impl Fn(i32, i32) -> [f64; 3],
@@ -474,7 +481,7 @@ fn a_layer_only_touches_and_one_that_comes_out_behind_passes() {
     assert!(told.iter().all(|&(_, _, left_out)| !left_out));
 }
 
-/// Bodies of a triangle or a few, by their corners.
+/// Bodies of one triangle or a few, given by their corners.
 fn few(bodies: &[&[[[i32; 3]; 3]]]) -> Bodies {
     let body = |triangles: &&[[[i32; 3]; 3]]| {
         let mut numbers: BTreeMap<Point, u32> = BTreeMap::new();
@@ -493,7 +500,7 @@ fn few(bodies: &[&[[[i32; 3]; 3]]]) -> Bodies {
     Bodies(bodies.iter().map(body).collect())
 }
 
-/// In the plane z = 0, round the origin.
+/// Floor in the plane z = 0, around the origin.
 const FLOOR: [[[i32; 3]; 3]; 2] = [
     [[-9, -9, 0], [9, -9, 0], [9, 9, 0]],
     [[-9, -9, 0], [9, 9, 0], [-9, 9, 0]],
@@ -505,12 +512,12 @@ fn what_stands_or_ends_on_a_surface_only_touches() {
     assert!(few(&[&FLOOR, &pin]).only_touch());
     let wall = [[[1, 0, 0], [5, 2, 0], [1, 1, 3]]];
     assert!(few(&[&FLOOR, &wall]).only_touch());
-    // Each of two walls is on one side of the floor; of one body that is one patch they are on both.
+    // Each of two walls is on one side of the floor. As one body, they are one patch on both sides.
     let below = [[[1, 0, 0], [5, 2, 0], [1, 1, -3]]];
     assert!(few(&[&FLOOR, &wall, &below]).only_touch());
     let through = [wall[0], [below[0][1], below[0][0], below[0][2]]];
     assert!(!few(&[&FLOOR, &through]).only_touch());
-    // As it is where the edge in common is one of the floor, too.
+    // The same holds where the common edge is an edge of the floor too.
     let diagonal = |z: i32| [[1, 1, 0], [5, 5, 0], [1, 3, z]];
     assert!(few(&[&FLOOR, &[diagonal(3)]]).only_touch());
     assert!(!few(&[&FLOOR, &[diagonal(3), diagonal(-3)]]).only_touch());
@@ -524,11 +531,11 @@ fn where_it_is_not_clear_what_a_side_is_a_place_stays() {
     let page = |x: i32, z: i32| [[1, 0, 0], [1, 5, 0], [x, 2, z]];
     let touches = [[[1, 1, 0], [1, 2, 0], [3, 1, -1]]];
     assert!(few(&[&[page(5, 3), page(-5, 3)], &touches]).only_touch());
-    // Three pages of one edge.
+    // Three triangles at one edge.
     assert!(!few(&[&[page(5, 3), page(-5, 3), page(0, 7)], &touches]).only_touch());
-    // One folded onto the other.
+    // Folded onto the other.
     assert!(!few(&[&[page(5, 3), page(9, 6)], &touches]).only_touch());
-    // One without area.
+    // Without area.
     assert!(!few(&[&[page(5, 3), page(1, 0)], &touches]).only_touch());
     let point = [[[1, 1, 0], [1, 1, 0], [1, 1, 0]]];
     assert!(!few(&[&FLOOR, &point]).only_touch());
@@ -536,7 +543,7 @@ fn where_it_is_not_clear_what_a_side_is_a_place_stays() {
 
 #[test]
 fn a_strip_with_one_side_stays() {
-    // A square that goes round an axis and turns by half meanwhile, and a triangle that lies on one of its edges.
+    // A square that goes around an axis and makes half a turn on the way (a Möbius strip).
     let corner = |step: i32, side: f64| {
         let around = f64::from(step) / 12.0 * std::f64::consts::TAU;
         let (sin, cos) = around.sin_cos();
@@ -555,14 +562,14 @@ fn a_strip_with_one_side_stays() {
             .map(|it| [it, it + 1, it + 2])
             .collect();
         if steps == 12 {
-            // Behind the last step the sides are exchanged.
+            // After the last step the sides are exchanged.
             triangles.extend([[22, 23, 1], [23, 1, 0]]);
         }
         (positions, triangles)
     };
     for (steps, only_touches) in [(11, true), (12, false)] {
         let (positions, triangles) = strip(steps);
-        // It lies on the whole strip.
+        // The second strip lies on all of the first.
         let bodies = Bodies(vec![
             (positions.clone(), triangles.clone()),
             (positions, triangles),

@@ -1,5 +1,7 @@
-//! A check against worlds made by hand: every piece a body of its own there, every frame a world of its own, every rule asked of
-//! every pair.
+//! Random checks against worlds made by hand.
+//!
+//! By hand, every piece is a body of its own, every frame a world of its own, and every rule is
+//! tested on every pair.
 
 use pliant::{Pair, Selection, World};
 use pliant_check::{
@@ -12,20 +14,23 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-/// Pieces of a source: each a few triangles that share corners, somewhere in a small cube in every frame.
+/// A random source of pieces. A piece is a few triangles that share corners, in a small cube in
+/// every frame.
 #[derive(Clone, Debug)]
 struct SourceMade {
-    /// The piece that each triangle is of, as they come in the file.
+    /// Piece of each triangle, in the order of the file.
     order: Vec<usize>,
-    /// For each frame, piece and corner the position.
+    /// Position by frame, piece and corner.
     frames: Vec<Vec<[[u8; 3]; 7]>>,
 }
 
 const FRAMES: usize = 3;
 
 impl SourceMade {
-    /// Triangles of a piece go round its seven corners, each sharing two with the one before: they hang together, but the first
-    /// and the fourth share none.
+    /// Triangles of all pieces, each of which goes around its seven corners.
+    ///
+    /// Each triangle shares two corners with the one before. So a piece is connected, but its first
+    /// and fourth triangle share none.
     fn triangles(&self) -> Vec<[usize; 3]> {
         let mut next = BTreeMap::new();
         let triangle = |&piece: &usize| {
@@ -55,7 +60,7 @@ impl SourceMade {
         }
     }
 
-    /// Triangles by piece, pieces in the order of their lowest triangle.
+    /// Triangles of each piece, ordered by the lowest triangle.
     fn pieces(&self) -> Vec<Vec<usize>> {
         let mut pieces: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (triangle, &piece) in self.order.iter().enumerate() {
@@ -67,7 +72,7 @@ impl SourceMade {
     }
 }
 
-/// All pairs of a frame, those of bodies with themselves too.
+/// All pairs of a frame with their distances, including pairs of bodies with themselves.
 fn by_hand(
     sources: &[SourceMade],
     split: bool,
@@ -75,7 +80,7 @@ fn by_hand(
     within: Option<f64>,
 ) -> Vec<(Row, f64)> {
     let mut world = World::<f64>::new();
-    // For each body of the world its triangles, as the source numbers them.
+    // Triangles of each body of the world, as the source numbers them.
     let mut bodies = Vec::new();
     for source in sources {
         let all = source.triangles();
@@ -120,13 +125,13 @@ fn by_hand(
     rows
 }
 
-/// Two elements: 0 and body, vertex, body, triangle; or 1 and body, vertex, vertex, body, vertex, vertex.
+/// A pair of elements: 0 and body, vertex, body, triangle; or 1 and body, vertex, vertex, twice.
 type Elements = (u8, Vec<u32>);
 
-/// When they first meet: between two numbers, and to the last bit.
+/// Time of impact: as an interval, and to the last bit.
 type Times = ([f64; 2], f64);
 
-/// All elements of any bodies that meet on the way from a frame to another.
+/// All impacts between elements of any bodies, from one frame to another.
 fn on_the_way_by_hand(
     sources: &[SourceMade],
     split: bool,
@@ -231,7 +236,8 @@ proptest! {
             if group {
                 let twice = b % 3 == 0;
                 let name = if twice { "group".to_owned() } else { a.to_string() };
-                (if twice { members.clone() } else { vec![a] }, members.clone(), [name, "group".to_owned()])
+                let some = if twice { members.clone() } else { vec![a] };
+                (some, members.clone(), [name, "group".to_owned()])
             } else {
                 let b = b % count;
                 (vec![a], vec![b], [a.to_string(), b.to_string()])
@@ -241,7 +247,9 @@ proptest! {
             some.contains(a) && others.contains(b) || some.contains(b) && others.contains(a)
         });
         let within = within.map(|quarters| f64::from(quarters) / 4.0);
-        let is_asked = |(row, _): &&(Row, f64)| (row[0] != row[2] || itself || count == 1) && meets(row);
+        let is_asked = |(row, _): &&(Row, f64)| {
+            (row[0] != row[2] || itself || count == 1) && meets(row)
+        };
         let with_distances = |frame| -> Vec<(Row, f64)> {
             by_hand(&sources, split, frame, within).iter().filter(is_asked).copied().collect()
         };
@@ -256,12 +264,15 @@ proptest! {
             first,
             listed,
             split: split.then_some(Split::Components),
-            groups: vec![Group { name: "group".to_owned(), bodies: members.iter().map(u32::to_string).collect() }],
+            groups: vec![Group {
+                name: "group".to_owned(),
+                bodies: members.iter().map(u32::to_string).collect(),
+            }],
             ignore: rules.iter().map(|(_, _, names)| names.clone()).collect(),
             baseline: baseline.map(Baseline::Frame),
             ..Settings::default()
         };
-        // Every piece has vertices of its own, and coinciding edges are to stay two.
+        // Every piece has its own vertices, and coinciding edges must stay two.
         let reading = OpenOptions { weld: false, ..OpenOptions::default() };
         let check = Check::open(&arguments, &reading, &settings);
         if within.is_some() && (itself || count == 1) {
@@ -276,7 +287,7 @@ proptest! {
             let (old, new): (Vec<Row>, Vec<Row>) =
                 expected(found.frame).into_iter().partition(|row| known.binary_search(row).is_ok());
             prop_assert_eq!(found.complete, !first);
-            // The same distance, whichever triangle of a pair comes first, but for its rounding.
+            // The order of a pair's triangles may change how its distance is rounded.
             let distances = with_distances(found.frame);
             let distance_of = |row| distances.iter().find(|(it, _)| *it == row).map(|&(_, it)| it);
             let least = new.iter().filter_map(|&row| distance_of(row)).reduce(f64::min);
@@ -308,7 +319,8 @@ proptest! {
         }
     }
 
-    /// Whatever else is asked: places that only touch are pairs of the same check, none of which crosses, and no more is lost.
+    /// Places that only touch are pairs of the same check without crossings, and no other pair is
+    /// lost.
     #[test]
     fn what_crosses_is_not_left_out(
         mut sources in prop::collection::vec(source(), 1..4),
@@ -320,14 +332,16 @@ proptest! {
         let folder = tempfile::tempdir().unwrap();
         let mut arguments = Vec::new();
         for (number, source) in sources.iter_mut().enumerate() {
-            // So close that much of it touches.
+            // So small a cube that much of it touches.
             let corners = source.frames.iter_mut().flatten().flatten().flatten();
             corners.for_each(|x| *x %= 3);
             let name = format!("s{number}");
             source.write(folder.path(), &name);
             arguments.push(folder.path().join(name + "_*.obj").display().to_string());
         }
-        let count = sources.iter().map(|it| if split { it.pieces().len() } else { 1 }).sum::<usize>() as u32;
+        let count_of = |source: &SourceMade| if split { source.pieces().len() } else { 1 };
+        let count = sources.iter().map(count_of).sum::<usize>() as u32;
+        let named = |&(a, b): &(u32, u32)| [a, b].map(|it| (it % count).to_string());
         let checked = |crossing, listed, first| {
             let settings = Settings {
                 itself,
@@ -335,7 +349,7 @@ proptest! {
                 listed,
                 first,
                 split: split.then_some(Split::Components),
-                ignore: ignored.iter().map(|&(a, b)| [a, b].map(|it| (it % count).to_string())).collect(),
+                ignore: ignored.iter().map(named).collect(),
                 baseline: baseline.map(Baseline::Frame),
                 ..Settings::default()
             };
@@ -411,7 +425,8 @@ proptest! {
             let mut expected = on_the_way_by_hand(&sources, split, [frame, until]);
             expected.retain(|(_, pair), _| {
                 let (a, b) = (pair[0], pair[pair.len() / 2]);
-                (a != b || itself || count == 1) && !rules.contains(&[a, b]) && !rules.contains(&[b, a])
+                let is_ignored = rules.contains(&[a, b]) || rules.contains(&[b, a]);
+                (a != b || itself || count == 1) && !is_ignored
             });
             let all = expected.len();
             expected.retain(|_, ([_, high], _)| *high > 0.0);
@@ -423,8 +438,10 @@ proptest! {
                 FirstImpact::EdgeEdge(it) => ((1, it.pair.to_vec()), [it.low, it.high]),
             });
             prop_assert_eq!(&found, &earliest);
-            let vertices = interval.vertex_triangle.iter().map(|it| ((0, it.pair.to_vec()), [it.low, it.high]));
-            let edges = interval.edge_edge.iter().map(|it| ((1, it.pair.to_vec()), [it.low, it.high]));
+            let vertices = interval.vertex_triangle.iter();
+            let vertices = vertices.map(|it| ((0, it.pair.to_vec()), [it.low, it.high]));
+            let edges = interval.edge_edge.iter();
+            let edges = edges.map(|it| ((1, it.pair.to_vec()), [it.low, it.high]));
             let lists: Vec<_> = vertices.chain(edges).collect();
             if first {
                 prop_assert_eq!(interval.count, expected.len().min(1));

@@ -1,5 +1,8 @@
-//! Meshes that change from file to file: every frame is what a check of its file alone finds, whichever frames were checked before, and
-//! what is left out of it is the baseline's where the meshes are equal. Seams close and open by chance: corners are on a lattice.
+//! Meshes that change from file to file, against checks of each file alone.
+//!
+//! Every frame has the pairs of its file, whichever frames were checked before. The baseline's
+//! pairs are left out where the meshes are equal. Seams close and open by chance, since corners are
+//! on a lattice.
 
 use pliant_check::{Baseline, Check, Error, Found, Frames, Settings, Split};
 use pliant_io::OpenOptions;
@@ -9,17 +12,17 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-/// A small mesh, by number: the same number, the same triangles; and where its corners are.
+/// A random small mesh: its number in [`MESHES`], and its corners.
 #[derive(Clone, Debug)]
 struct Shape {
     mesh: usize,
     corners: Vec<[u8; 3]>,
 }
 
-/// As many corners as the largest mesh has.
+/// Number of corners of the largest mesh.
 const MOST: usize = 9;
 
-/// Equal numbers of vertices and triangles in meshes 0 and 1; in 2 more of both, in 3 fewer.
+/// Vertex counts and triangles. Meshes 0 and 1 have equal numbers of both, 2 has more, 3 fewer.
 const MESHES: [(usize, &[[usize; 3]]); 4] = [
     (7, &[[0, 1, 2], [2, 1, 3], [4, 5, 6]]),
     (7, &[[0, 1, 2], [2, 3, 4], [4, 5, 6]]),
@@ -50,7 +53,7 @@ fn shapes() -> impl Strategy<Value = Vec<Shape>> {
     prop::collection::vec(shape, 1..7)
 }
 
-/// Finds what `settings` ask for of a body that changes and one that stands still.
+/// Checks a body that changes and one that stands still.
 fn find(folder: &Path, changing: &str, settings: &Settings) -> Result<Vec<Found>, Error> {
     let arguments = [changing, "still.obj"].map(|name| folder.join(name).display().to_string());
     let mut check = Check::open(&arguments, &OpenOptions::default(), settings)?;

@@ -1,11 +1,12 @@
-//! Whatever the file, the same meshes have the same answers: bodies of glTF files against the same bodies as sequences.
+//! Equal answers for equal meshes in any format: bodies of glTF files against the same bodies as
+//! sequences.
 
 use pliant_check::{Baseline, Check, Error, Found, Frames, Group, Settings, Split};
 use pliant_io::{Body, OpenOptions, Shape, WriteOptions, Writer};
 use std::path::Path;
 use tempfile::TempDir;
 
-/// Four bodies: three that a clip moves, one that stands.
+/// A scene of four bodies: three that a clip moves, and one that stands still.
 const SCENE: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
     "/../pliant-io/tests/fixtures/hierarchy.gltf"
@@ -21,7 +22,7 @@ fn reading() -> OpenOptions {
     }
 }
 
-/// Each body of the scene as a sequence of its own.
+/// Writes each body of the scene as a sequence of its own.
 fn sequences() -> (TempDir, Vec<String>) {
     let folder = tempfile::tempdir().unwrap();
     let bodies = pliant_io::open_all(SCENE, &reading()).unwrap();
@@ -139,7 +140,7 @@ fn names_of_a_scene_and_of_its_bodies() {
         check(&[group], ["g", &ground], None).unwrap(),
         by_number(1, 3)
     );
-    // The file stands for all its bodies, alone and in a group, and for all pieces of these.
+    // The file stands for all its bodies, alone and in a group, and for all their pieces.
     for split in [None, Some(Split::Components)] {
         for (groups, ignore) in [(&[][..], [SCENE; 2]), (&[("g", &[""][..])], ["g"; 2])] {
             let left = check(groups, ignore, split).unwrap();
@@ -160,7 +161,7 @@ fn a_clip_of_what_has_none_is_refused() {
     let (_folder, sequences) = sequences();
     let refused = Check::open(&sequences, &reading(), &Settings::default()).err();
     assert!(matches!(refused, Some(Error::NoClip)), "{refused:?}");
-    // One body that has it is enough.
+    // One body with the clip is enough.
     let both = [SCENE.to_owned(), sequences[3].clone()];
     assert_eq!(
         Check::open(&both, &reading(), &Settings::default())
@@ -168,14 +169,16 @@ fn a_clip_of_what_has_none_is_refused() {
             .body_count(),
         5
     );
-    // One of the same format that has no clip at all stands still.
+    // A file of the same format without any clip stands still.
     let folder = tempfile::tempdir().unwrap();
     let still = folder.path().join("still.gltf").display().to_string();
     let data = "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
     let text = format!(
-        r#"{{"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
+        r#"{{"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
         "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}}],
-        "bufferViews":[{{"buffer":0,"byteLength":36}}],"buffers":[{{"byteLength":36,"uri":"{data}"}}]}}"#
+        "bufferViews":[{{"buffer":0,"byteLength":36}}],
+        "buffers":[{{"byteLength":36,"uri":"{data}"}}]}}"#
     );
     std::fs::write(&still, text).unwrap();
     let alone = Check::open(

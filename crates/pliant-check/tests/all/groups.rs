@@ -1,5 +1,7 @@
-//! Groups of OBJ files as bodies: against worlds made by hand, every group a body of its own there, and pairs that share a vertex of
-//! the file left out afterwards; and what is refused.
+//! Groups of OBJ files as bodies, against worlds made by hand, and refusals.
+//!
+//! By hand, every group is a body of its own. Pairs that share a vertex of the file are removed
+//! afterwards.
 
 use pliant::{Selection, World};
 use pliant_check::{Baseline, Check, Error, Row, Settings, Split};
@@ -12,7 +14,7 @@ use std::path::Path;
 const FRAMES: usize = 2;
 const VERTICES: u32 = 12;
 
-/// Each group: its name, and what in a file begins it.
+/// Each group's name, and the lines that begin it in a file.
 const GROUPS: [(&str, &str); 4] = [
     ("default", "o\ng"),
     ("a", "o a"),
@@ -20,7 +22,7 @@ const GROUPS: [(&str, &str); 4] = [
     ("c", "o\ng c"),
 ];
 
-/// What arguments may name of a file; nothing for the whole of it.
+/// Groups of a file that arguments name; empty for the whole file.
 const NAMED: [&[&str]; 5] = [
     &[],
     &["c", "a"],
@@ -29,17 +31,17 @@ const NAMED: [&[&str]; 5] = [
     &["a", "default"],
 ];
 
-/// A soup whose triangles share vertices, in any groups.
+/// A random triangle soup with shared vertices, in random groups.
 #[derive(Clone, Debug)]
 struct SourceMade {
     triangles: Vec<[u32; 3]>,
     groups: Vec<usize>,
     frames: Vec<Vec<[u8; 3]>>,
-    /// Which of [`NAMED`].
+    /// Index in [`NAMED`].
     named: usize,
 }
 
-/// A body, as it should be.
+/// An expected body.
 struct BodyMade {
     name: String,
     source: usize,
@@ -85,7 +87,7 @@ impl SourceMade {
         }
     }
 
-    /// The groups that there are, in the order of their lowest triangles.
+    /// Groups that exist, in the order of their lowest triangles.
     fn groups(&self) -> Vec<usize> {
         let mut groups = Vec::new();
         for &group in &self.groups {
@@ -96,13 +98,13 @@ impl SourceMade {
         groups
     }
 
-    /// The groups that arguments name, those that there are.
+    /// Groups that arguments name and that exist.
     fn named(&self) -> Vec<&'static str> {
         let is_there = |name: &&str| self.groups().iter().any(|&g| is_meant(GROUPS[g].0, name));
         NAMED[self.named].iter().copied().filter(is_there).collect()
     }
 
-    /// The bodies: names, and which groups they are; none for all.
+    /// Expected bodies: the name, `None` for a whole file, and the groups of each.
     fn bodies(&self, split: bool) -> Vec<(Option<&'static str>, Vec<usize>)> {
         let (groups, named) = (self.groups(), self.named());
         let of = |name: &str| -> Vec<usize> {
@@ -126,7 +128,7 @@ fn is_meant(name: &str, by: &str) -> bool {
     name == by || name.starts_with(&format!("{by}/"))
 }
 
-/// All pairs of a frame, those of bodies with themselves too.
+/// All pairs of a frame, including pairs of bodies with themselves.
 fn by_hand(sources: &[SourceMade], bodies: &[BodyMade], frame: usize) -> Vec<Row> {
     let mut world = World::<f64>::new();
     for body in bodies {
@@ -174,7 +176,7 @@ proptest! {
             let name = format!("s{number}");
             source.write(folder.path(), &name);
             let file = folder.path().join(name + "_*.obj").display().to_string();
-            // Where nothing is named there is nothing to ask for.
+            // A file without groups has none to ask for.
             let named = if source.groups() == [0] { Vec::new() } else { source.named() };
             arguments.extend(named.iter().map(|name| format!("{file}#{name}")));
             if named.is_empty() {
@@ -195,7 +197,7 @@ proptest! {
         let meets = |[a, _, b, _]: &Row| rule.as_ref().is_none_or(|[one, other]| {
             let is = |body: &u32, name: &str| {
                 let own = &bodies[*body as usize].name;
-                // A file's own name stands for it where it is a body.
+                // The name of a whole file stands for its body.
                 is_meant(own, name)
             };
             !(is(a, one) && is(b, other) || is(b, one) && is(a, other))
@@ -232,8 +234,10 @@ proptest! {
     }
 }
 
-/// Two triangles of two groups that share an edge of the file, two that were welded along one, and one across all.
-const SEAMS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 2 0 0\nv -0.6 0.5 -1\nv 1.8 0.4 -1\nv 1 0.5 1\n\
+/// Two triangles of two groups with a common edge, one welded to them along a seam, and one across
+/// all.
+const SEAMS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 2 0 0\n\
+    v -0.6 0.5 -1\nv 1.8 0.4 -1\nv 1 0.5 1\n\
     g left\nf 1 2 3\ng top\nf 1 3 4\ng right\nf 5 7 6\ng 1\nf 8 9 10\n";
 
 #[test]
@@ -242,7 +246,7 @@ fn a_seam_between_groups_is_no_hit_however_they_are_named() {
     let file = folder.path().join("seams.obj");
     fs::write(&file, SEAMS).unwrap();
     let file = file.display().to_string();
-    // The same file, called otherwise.
+    // Another spelling of the same file.
     let other = folder.path().join(".").join("seams.obj");
     let other = format!("{}//seams.obj", other.parent().unwrap().display());
     let found = |arguments: &[String], split| {
@@ -283,7 +287,7 @@ fn a_seam_between_groups_is_no_hit_however_they_are_named() {
         format!("{other}#right"),
     ];
     assert_eq!(found(&mixed, None), (3, 1, vec![]));
-    // The order of arguments is that of bodies.
+    // Bodies have the order of the arguments.
     let last_first = [format!("{file}#1"), format!("{file}#left")];
     assert_eq!(
         found(&last_first, None),
@@ -304,7 +308,8 @@ fn a_baseline_may_come_from_groups_named_otherwise() {
         .map(body)
         .join(",");
     let text = format!(
-        r#"{{"format":1,"bodies":[{bodies}],"frames":[{{"count":2,"pairs":[[0,0,3,3],[1,2,3,3]]}}]}}"#
+        r#"{{"format":1,"bodies":[{bodies}],
+        "frames":[{{"count":2,"pairs":[[0,0,3,3],[1,2,3,3]]}}]}}"#
     );
     fs::write(&old, text).unwrap();
     let settings = Settings {
@@ -377,7 +382,7 @@ fn groups_are_those_of_the_first_mesh() {
             "{error}"
         );
     }
-    // Beside it, a source that is a body as a whole may have another mesh.
+    // A source that is one body may change its mesh beside a source that is split.
     fs::write(path("t_1.ply.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     fs::write(
         path("t_2.ply.obj"),

@@ -1,5 +1,6 @@
-//! The tests of the crate, one file a module, in one program: a program each is linked with the whole library each time.
-//! One file: `cargo test -p pliant-check --test all against_worlds::`.
+//! All integration tests of the crate as one program, so that the library is linked once.
+//!
+//! Each file is a module. One file: `cargo test -p pliant-check --test all against_worlds::`.
 
 mod against_worlds;
 mod changing;

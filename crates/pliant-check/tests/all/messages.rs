@@ -1,12 +1,13 @@
-//! No message of this crate, or of the readers below it, names an option as the program writes it: Python shows these messages too,
-//! and there `--no-weld` is nothing. The program adds its flags in `crates/pliant-cli/src/advice.rs`.
+//! No message of this crate or of `pliant-io` names an option of the program.
 //!
-//! A message may be put together anywhere, so the source itself is looked at: every line that is not a comment, whatever it is for.
+//! Python shows these messages too, where `--no-weld` means nothing. The program adds its flags in
+//! `crates/pliant-cli/src/advice.rs`. A message may be assembled anywhere, so this test reads the
+//! source: every line that is not a comment.
 
 use std::fs;
 use std::path::Path;
 
-/// How commands of the program begin, and their parts that are no flag.
+/// Openings of the program's commands, and their parts that are no flags.
 const OF_THE_PROGRAM: [&str; 6] = [
     "`pliant ",
     "pliant check",
@@ -16,7 +17,9 @@ const OF_THE_PROGRAM: [&str; 6] = [
     "NAME=BODY",
 ];
 
-/// Whether a line of source names an option of the program. In code, two minus signs before a name stand for nothing.
+/// Whether a line of source names an option of the program.
+///
+/// In the code itself, two minus signs never stand before a name.
 fn names_an_option(line: &str) -> bool {
     let begins_a_flag = |(at, _): (usize, &str)| {
         let behind = line[at + 2..].chars().next();
@@ -30,7 +33,7 @@ fn is_comment(line: &str) -> bool {
     line.trim_start().starts_with("//")
 }
 
-/// Every line that names an option, with its place; and how many lines were looked at.
+/// Collects every line that names an option, with its location; returns the number of lines read.
 fn look_into(folder: &Path, found: &mut Vec<String>) -> usize {
     let mut looked_at = 0;
     for entry in fs::read_dir(folder).unwrap() {

@@ -1,5 +1,6 @@
-//! Places are what their definition says, pair by pair and frame by frame, whatever the order in which pairs come; and of a check they
-//! are those of the pairs that it hands out.
+//! Places against their definition, pair by pair and frame by frame, for pairs in any order.
+//!
+//! Places of a check are the places of the pairs that it returns.
 
 use pliant_check::{
     Baseline, Check, Found, Frames, Life, Lives, Meshes, Place, Places, Row, Settings, Split,
@@ -12,7 +13,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-/// Meshes of vertices that are nowhere in particular.
+/// Meshes whose vertices have arbitrary positions.
 #[derive(Clone, Debug, PartialEq)]
 struct Soup(Vec<Vec<[u32; 3]>>);
 
@@ -38,7 +39,7 @@ impl Meshes for Soup {
     }
 }
 
-/// Source and triangle of each end.
+/// Source and triangle of both ends of a pair.
 fn ends(&[source_a, a, source_b, b]: &Row) -> [[u32; 2]; 2] {
     [[source_a, a], [source_b, b]]
 }
@@ -56,7 +57,7 @@ fn any_touch(meshes: &Soup, some: &[Row], others: &[Row]) -> bool {
     })
 }
 
-/// The pairs of each place, joined as the definition says, and the number that it has.
+/// Expected places by the definition: the number and the pairs of each.
 fn expected(
     meshes: &Soup,
     pairs: &BTreeSet<Row>,
@@ -142,7 +143,10 @@ fn check_place(meshes: &Soup, place: &Place, pairs: &[Row]) {
 
 prop_compose! {
     fn meshes()(
-        triangles in prop::collection::vec(prop::collection::vec(prop::array::uniform3(0..VERTICES), 1..14), 2),
+        triangles in prop::collection::vec(
+            prop::collection::vec(prop::array::uniform3(0..VERTICES), 1..14),
+            2,
+        ),
     ) -> Soup {
         Soup(triangles)
     }
@@ -165,8 +169,10 @@ proptest! {
         for (frame, (mesh, drawn)) in frames.iter().enumerate() {
             let meshes = mesh.get(&meshes);
             let mut rows: Vec<Row> = drawn.iter().map(|(source_a, a, source_b, b)| {
-                let triangle = |source: u32, index: &prop::sample::Index| index.index(meshes.0[source as usize].len()) as u32;
-                let (one, other) = ([*source_a, triangle(*source_a, a)], [*source_b, triangle(*source_b, b)]);
+                let triangle = |source: u32, index: &prop::sample::Index| {
+                    [source, index.index(meshes.0[source as usize].len()) as u32]
+                };
+                let (one, other) = (triangle(*source_a, a), triangle(*source_b, b));
                 let [[source_a, a], [source_b, b]] = [one.min(other), one.max(other)];
                 [source_a, a, source_b, b]
             }).collect();
@@ -179,7 +185,7 @@ proptest! {
             shown = Some(meshes);
             let named = expected(meshes, &pairs, &before, &changed, &mut next);
 
-            // What an interrupted frame left is forgotten.
+            // Pairs of an interrupted frame are forgotten.
             places.begin();
             rows.iter().take(2).for_each(|&row| places.take(meshes, row, row));
             places.take(meshes, [0, 99, 1, 0], [0, 99, 1, 0]);
@@ -194,9 +200,14 @@ proptest! {
             }
             lives.take(frame, &found);
             for place in found {
-                // A number that a frame has not is never used again.
+                // A number that is missing in a frame is never used again.
                 match all.iter_mut().find(|life| life.worst.number == place.number) {
-                    None => all.push(Life { first_frame: frame, last_frame: frame, worst_frame: frame, worst: place }),
+                    None => all.push(Life {
+                        first_frame: frame,
+                        last_frame: frame,
+                        worst_frame: frame,
+                        worst: place,
+                    }),
                     Some(life) => {
                         prop_assert_eq!(life.last_frame + 1, frame);
                         life.last_frame = frame;
@@ -237,7 +248,7 @@ fn of_very_many_places_the_largest_are_kept() {
     assert_eq!((place(0).size(), place(0).centre()), (3.0, [0.5, 1.5, 1.0]));
 }
 
-/// A sheet of 40 triangles in a strip, and needles through it: at `x` one each, of the strip's triangles near there.
+/// Writes a strip of 40 triangles, and a needle through it at each `x`.
 fn strip(folder: &Path, name: &str, needles: &[f64]) {
     let mut text = String::new();
     for x in 0..=20 {
@@ -274,7 +285,7 @@ fn find(folder: &Path, names: &[&str], settings: Settings) -> (Vec<Found>, usize
     (all, check.places().0)
 }
 
-/// For each frame the numbers of its places, largest first.
+/// Numbers of the places in each frame, largest place first.
 fn numbers(found: &[Found]) -> Vec<Vec<usize>> {
     let of_frame = |found: &Found| {
         let places = found.places.as_ref().unwrap();
@@ -288,7 +299,7 @@ fn numbers(found: &[Found]) -> Vec<Vec<usize>> {
 #[test]
 fn a_place_lives_as_long_as_it_shares_a_neighbour_and_longer_steps_end_it() {
     let folder = tempfile::tempdir().unwrap();
-    // One needle walks along the strip, a second stands; where the first has come to it they are one place.
+    // One needle walks along the strip, another stands. They are one place once the first arrives.
     for (frame, x) in [2.4, 3.4, 4.4, 14.4].into_iter().enumerate() {
         strip(folder.path(), &format!("_{frame}"), &[x, 15.4]);
     }
@@ -303,7 +314,8 @@ fn a_place_lives_as_long_as_it_shares_a_neighbour_and_longer_steps_end_it() {
     assert_eq!(merged.bodies.len(), 2);
     assert_eq!(merged.bodies[1].triangles, 2);
 
-    // Every second frame: the first needle has gone too far, though it is the same triangle; as that it lives on.
+    // In every second frame the first needle has gone too far, but the place lives on by the
+    // needle's triangle.
     let settings = Settings {
         frames: Some(Frames {
             start: 0,
@@ -317,7 +329,7 @@ fn a_place_lives_as_long_as_it_shares_a_neighbour_and_longer_steps_end_it() {
         [[0, 1], [0, 1]]
     );
 
-    // Left out by a baseline: the pairs of frame 0, one of each needle.
+    // A baseline leaves out the pairs of frame 0, one of each needle.
     let settings = Settings {
         baseline: Some(Baseline::Frame(0)),
         ..Settings::default()
@@ -330,7 +342,7 @@ fn a_place_lives_as_long_as_it_shares_a_neighbour_and_longer_steps_end_it() {
     );
     assert!(numbers(&found).iter().flatten().count() > 0);
 
-    // Pieces have numbers of their own; ignored ones no places.
+    // Pieces have numbers of their own, and ignored ones no places.
     let settings = Settings {
         split: Some(Split::Components),
         ignore: vec![["needles_*.obj#2".to_owned(), "strip_*.obj".to_owned()]],
@@ -352,7 +364,7 @@ fn a_place_lives_as_long_as_it_shares_a_neighbour_and_longer_steps_end_it() {
         assert_eq!((places.len(), bodies), (1, vec![0, 1]));
     }
 
-    // Of a first pair nothing is said.
+    // Frames that ask for the first pair have no places.
     let settings = Settings {
         first: true,
         ..Settings::default()
@@ -364,7 +376,7 @@ fn a_place_lives_as_long_as_it_shares_a_neighbour_and_longer_steps_end_it() {
 #[test]
 fn places_go_on_through_bodies_that_keep_their_mesh() {
     let folder = tempfile::tempdir().unwrap();
-    // The needles change their mesh in frame 1: a third one is far from the strip. In frame 2 both change.
+    // In frame 1 the needles change their mesh, by one far from the strip. In frame 2 both change.
     strip(folder.path(), "_0", &[2.4]);
     strip(folder.path(), "_1", &[2.4, 90.0]);
     strip(folder.path(), "_2", &[2.4]);
@@ -377,7 +389,7 @@ fn places_go_on_through_bodies_that_keep_their_mesh() {
     assert_eq!(numbers(&found), [[0], [0], [1]]);
 }
 
-/// Any number of threads, the same places; on real meshes where they are there.
+/// Equal places for any number of threads, on real meshes if they are available.
 #[test]
 fn places_of_real_meshes_do_not_depend_on_threads() {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");

@@ -1,4 +1,4 @@
-//! Ranges of frames, names, and what is refused.
+//! Settings of a check: ranges of frames, names, and refusals.
 
 use pliant_check::{Baseline, Check, Error, Frames, Group, Settings, Split};
 use pliant_io::OpenOptions;
@@ -6,7 +6,8 @@ use std::fs;
 use std::sync::atomic::{AtomicU32, Ordering};
 use tempfile::TempDir;
 
-/// Three bodies that all meet in frame 0 and move apart: two sequences of six frames, and one that stands still.
+/// Three bodies that all meet in frame 0 and move apart: two sequences of six frames, and one that
+/// stands still.
 fn folder() -> (TempDir, Vec<String>) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
@@ -50,7 +51,7 @@ fn frames_are_those_of_the_range_whatever_the_baseline() {
             };
             let some: Vec<_> = frames.iter().map(|&frame| all[frame]).collect();
             assert_eq!(counts(&arguments, &settings(None)).unwrap(), some);
-            // All from there on, however many there are.
+            // All frames from `start` on, however many there are.
             let mut open_end = settings(None);
             let range = open_end.frames.as_mut().unwrap();
             range.count = usize::MAX;
@@ -60,7 +61,7 @@ fn frames_are_those_of_the_range_whatever_the_baseline() {
             assert!(check.frames().eq(frames.iter().copied()));
             check.next_frame().unwrap();
             assert!(check.frames().eq(frames.iter().copied().skip(1)));
-            // In frame 1 all pairs are in which `c` is.
+            // Frame 1 has all pairs in which `c` takes part.
             for baseline in [1, 5] {
                 let some = some.iter().map(|&(frame, count)| match baseline {
                     1 if frame == 0 => (frame, 1),
@@ -102,7 +103,7 @@ fn frames_are_those_of_the_range_whatever_the_baseline() {
     assert_eq!(counts(&arguments, &settings).unwrap(), []);
 }
 
-/// Whenever it is interrupted, nothing is lost: the same frame is checked the next time.
+/// An interruption at any moment loses nothing: the next call checks the same frame.
 #[test]
 fn an_interrupted_frame_can_be_asked_for_again() {
     let (_folder, arguments) = folder();
@@ -188,7 +189,7 @@ fn bodies_of_both_precisions_meet_in_double_precision() {
     let corners = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
     let stl = format!("solid a\nfacet\nouter loop\n{corners}endloop\nendfacet\nendsolid\n");
     fs::write(path("single.stl"), stl).unwrap();
-    // Above the other by less than single precision can tell from what is below it.
+    // Single precision cannot tell the two heights apart.
     for (name, low) in [("above.obj", "1e-60"), ("below.obj", "-1e-60")] {
         let text = format!("v 0.25 0.25 {low}\nv 0.25 0.5 1\nv 0.5 0.25 1\nf 1 2 3\n");
         fs::write(path(name), text).unwrap();
@@ -258,11 +259,11 @@ fn a_name_stands_for_every_body_it_can() {
         (&[("g", &[a, b, c])], &[["g", "g"]], true, 0),
         (&[], &[[&piece, b]], true, 2),
         (&[], &[[a, "1"]], true, 2),
-        // The same path twice is the same name for two bodies.
     ] {
         let settings = with_names(groups, ignore, split);
         assert_eq!(first_frame(&settings), left, "{groups:?} {ignore:?}");
     }
+    // The same path twice is one name for two bodies.
     let twice = [a, a, c].map(str::to_owned);
     let left = counts(&twice, &with_names(&[], &[[a, c]], false)).unwrap();
     assert_eq!(left[0], (0, 1));
@@ -326,7 +327,7 @@ fn the_names_of_many_bodies_are_not_all_listed() {
 fn after_an_error_nothing_follows() {
     let (folder, arguments) = folder();
     fs::write(folder.path().join("b2.obj"), "no mesh").unwrap();
-    // On the way to a baseline behind it the damaged frame is passed over.
+    // The damaged frame is skipped on the way to a baseline behind it.
     for (baseline, counts) in [(None, &[3, 2][..]), (Some(3), &[2, 1]), (Some(2), &[])] {
         let settings = Settings {
             baseline: baseline.map(Baseline::Frame),
@@ -388,7 +389,7 @@ fn where_pairs_are_closest_is_listed_if_that_is_asked() {
     };
     let arguments = [
         write("skin.obj", "v -1 -1 0\nv 9 -1 0\nv -1 9 0\nf 1 2 3\n"),
-        // The first is above the plane, the second goes through it.
+        // The first is above the plane, the second passes through it.
         write(
             "shirt.obj",
             "v 1 1 0.25\nv 1 2 4\nv 2 1 4\nv 3 3 -1\nv 3 4 4\nv 4 3 4\nf 1 2 3\nf 4 5 6\n",
@@ -420,7 +421,7 @@ fn where_pairs_are_closest_is_listed_if_that_is_asked() {
         both.into_iter().all(|(x, y)| (x - y).abs() < 1e-12),
         "{gap:?}"
     );
-    // Not of what is not listed, not asked for, or not the nearest.
+    // Only for listed pairs, if asked for; and not for a nearest pair at distance 0.
     for [closest_points, listed, first] in [
         [false, true, false],
         [true, false, false],

@@ -1,5 +1,5 @@
-//! What meets on the way from a frame to the next: exact times, borders of groups, triangles without area, meshes that change, limits,
-//! interruptions, refusals.
+//! Impacts between frames: exact times, borders of groups, triangles without area, changing meshes,
+//! limits, interruptions, refusals.
 
 use pliant_check::{
     Baseline, Check, Error, FirstImpact, Frames, Impact, Interval, Settings, Split,
@@ -29,7 +29,7 @@ fn open(folder: &Path, bodies: &[&str], settings: &Settings) -> Result<Check, Er
     )
 }
 
-/// Everything that is found on the way.
+/// All intervals of a check.
 fn intervals(folder: &Path, bodies: &[&str], settings: &Settings) -> Vec<Interval> {
     let mut check = open(folder, bodies, settings).unwrap();
     let mut all = Vec::new();
@@ -46,12 +46,12 @@ fn swept() -> Settings {
     }
 }
 
-/// A large triangle in the plane 0.
+/// A large triangle in the plane z = 0.
 fn floor() -> String {
     "v -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n".to_owned()
 }
 
-/// A triangle that stands on a corner at this height; the others are five above it.
+/// A triangle whose lowest corner is at this height, and the others five above it.
 fn leaf(height: f64) -> String {
     let above = height + 5.0;
     format!("v 0 0 {height}\nv 1 0 {above}\nv 0 1 {above}\nf 1 2 3\n")
@@ -76,12 +76,13 @@ fn with_floor(heights: &[f64]) -> TempDir {
 
 #[test]
 fn times_are_exact_and_what_touches_in_a_frame_is_news_once() {
-    // It jumps through, touches from above in frame 2 exactly, and goes on.
+    // The leaf jumps, touches the floor from above exactly in frame 2, and goes on.
     let folder = with_floor(&[3.0, 1.0, 0.0, -3.0]);
     let found = intervals(folder.path(), &["leaf_*.obj", "floor.obj"], &swept());
     let facts = |it: &Interval| (it.frame, it.until, it.count, it.at_start);
     let facts: Vec<_> = found.iter().map(facts).collect();
-    // Edges of the leaf meet no edge of the floor, and its corner in frame 2 is the one vertex there.
+    // The leaf's edges meet no edge of the floor, and its lowest corner is the one vertex on the
+    // floor in frame 2.
     assert_eq!(facts, [(0, 1, 0, 0), (1, 2, 1, 0), (2, 3, 0, 1)]);
     let low = 1.0 - 0.5_f64.powi(20);
     let impact = Impact {
@@ -96,7 +97,8 @@ fn times_are_exact_and_what_touches_in_a_frame_is_news_once() {
 
 #[test]
 fn the_first_is_the_first_to_the_last_bit() {
-    // Of three corners each is a little lower than the one before: all meet the floor within a millionth of the way.
+    // Each corner is a little lower than the one before: all meet the floor within a millionth of
+    // the way.
     let corners = |by: f64| {
         let heights = [0.0, 1e-9, 2e-9].map(|lower| 3.0 - by - lower);
         let [a, b, c] = heights;
@@ -112,7 +114,7 @@ fn the_first_is_the_first_to_the_last_bit() {
         (false, true, None),
         (false, false, None),
         (true, true, None),
-        // The world alone does not know it.
+        // Pieces need all impacts, since the world alone does not know pieces.
         (true, true, Some(Split::Components)),
     ] {
         let settings = Settings {
@@ -149,7 +151,7 @@ fn intervals_go_from_a_frame_that_is_checked_to_the_next() {
         });
         facts.collect::<Vec<_>>()
     };
-    // Where its lowest corner meets the plane first; where it has passed all three do.
+    // The lowest corner meets the plane first. Where the leaf passes through, all three corners do.
     let all = [
         (0, 1, 3, Some(3000.0)),
         (1, 2, 3, Some(2222.0)),
@@ -157,19 +159,19 @@ fn intervals_go_from_a_frame_that_is_checked_to_the_next() {
         (3, 4, 3, Some(1111.0)),
     ];
     assert_eq!(of(0, 1, 5), all);
-    // Frames that are passed over are not on the way.
+    // Skipped frames are not on the way.
     assert_eq!(of(0, 2, 3), [(0, 2, 0, None), (2, 4, 3, Some(2000.0))]);
     assert_eq!(of(1, 3, 2), [(1, 4, 0, None)]);
 }
 
-/// Two triangles, of two groups, that have an edge in common, in the plane of this height.
+/// Two triangles of two groups with a common edge, at height z.
 fn two_groups(z: f64) -> String {
     format!("v 0 0 {z}\nv 2 0 {z}\nv 0 2 {z}\nv 2 2 {z}\ng a\nf 1 2 3\ng b\nf 4 3 2\n")
 }
 
 #[test]
 fn what_lies_between_two_bodies_is_of_both() {
-    // The common edge of the two sinks through the tip of a needle that no other part of them meets.
+    // The common edge sinks through the tip of a needle, which meets no other part of the two.
     let needle = "v 0.75 1.25 0\nv 0.75 1.25 -9\nv 1.25 0.75 -9\nv 1.25 0.75 0\nf 1 2 3\nf 1 3 4\n";
     let folder = folder(&[
         ("cloth_0.obj", two_groups(1.0)),
@@ -193,14 +195,15 @@ fn what_lies_between_two_bodies_is_of_both() {
         let edges: Vec<_> = found.edge_edge.iter().map(|it| it.pair).collect();
         (vertices, edges)
     };
-    // Bodies 0 and 1 are the groups, 2 is needle.obj, whose corners 0 and 3 lie below the edge from 1 to 2.
+    // Bodies 0 and 1 are the groups. Body 2 is needle.obj, whose vertices 0 and 3 lie below the
+    // edge from 1 to 2.
     let (vertices, edges) = of(&[]);
     assert_eq!(
         vertices,
         [[2, 0, 0, 0], [2, 0, 1, 1], [2, 3, 0, 0], [2, 3, 1, 1]]
     );
     assert!(!edges.is_empty() && edges.iter().all(|edge| edge[..3] == [0, 1, 2]));
-    // One of the two may not meet it: then the edge is the other's.
+    // If one of the two may not meet the needle, the edge counts for the other.
     let (vertices, of_b) = of(&["a"]);
     assert_eq!(vertices, [[2, 0, 1, 1], [2, 3, 1, 1]]);
     let all: Vec<_> = edges
@@ -213,11 +216,13 @@ fn what_lies_between_two_bodies_is_of_both() {
 
 #[test]
 fn triangles_without_area_are_left_out_with_what_is_theirs_alone() {
-    // A segment as a triangle, which shares its lower end with a leaf; and a leaf that is flat in the first frame only.
+    // A segment as a triangle, which shares its upper end with a leaf; and a leaf that is flat in
+    // the first frame only.
     let text = |z: f64, width: f64| {
         let above = z + 5.0;
         format!(
-            "v 0 0 {z}\nv 1 0 {above}\nv 0 1 {above}\nv 0 0 {}\nf 1 2 3\nf 1 4 4\nv 3 0 {z}\nv 3 {width} {z}\nv 3 {width} {z}\nf 5 6 7\n",
+            "v 0 0 {z}\nv 1 0 {above}\nv 0 1 {above}\nv 0 0 {}\nf 1 2 3\nf 1 4 4\n\
+             v 3 0 {z}\nv 3 {width} {z}\nv 3 {width} {z}\nf 5 6 7\n",
             z - 0.5
         )
     };
@@ -273,7 +278,7 @@ fn where_a_mesh_changes_nothing_moves() {
             (4, vec![], true)
         ]
     );
-    // Frames are what they are without all that, whether intervals are asked for or not.
+    // Frames have equal results without motions, whether intervals are asked for or not.
     let frames = |settings: &Settings, asked: bool| {
         let mut check = open(folder.path(), &bodies, settings).unwrap();
         let mut all = Vec::new();
@@ -344,7 +349,7 @@ fn lists_have_a_limit() {
         }
         found.map(|it| it.unwrap().count)
     };
-    // Three corners.
+    // Three impacts, one for each corner.
     assert_eq!(of(120, true).unwrap(), 3);
     assert_eq!(of(0, false).unwrap(), 3);
     let error = of(119, true).unwrap_err();
@@ -358,7 +363,8 @@ fn lists_have_a_limit() {
     ));
     assert_eq!(
         error.to_string(),
-        "from frame 0 to 1: more than 2 pairs of elements meet, and their list needs more memory than is allowed"
+        "from frame 0 to 1: more than 2 pairs of elements meet, and their list needs more memory \
+         than is allowed"
     );
 }
 
@@ -392,7 +398,7 @@ fn what_has_no_way_is_refused() {
         ..swept()
     };
     assert!(matches!(refused(&bodies, &settings), Error::SweptBaseline));
-    // Not asked, not said.
+    // No interval without the setting.
     let mut check = open(folder.path(), &bodies, &Settings::default()).unwrap();
     check.next_frame().unwrap();
     assert!(check.next_interval().unwrap().is_none());

@@ -1,4 +1,4 @@
-//! `pliant bench`: methods side by side, and what the paper claims about them.
+//! `pliant bench`: compares methods side by side, and tests the paper's claims.
 
 mod report;
 mod tables;
@@ -22,7 +22,12 @@ pub(crate) struct Arguments {
     /// The experiment, or `all`
     name: String,
     /// How often every method plays every step; figures are medians
-    #[arg(long, value_name = "R", default_value = "5", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(
+        long,
+        value_name = "R",
+        default_value = "5",
+        value_parser = clap::value_parser!(u16).range(1..)
+    )]
     rounds: u16,
     /// A small form that takes seconds, to see what there is; its times mean nothing
     #[arg(long)]
@@ -30,20 +35,21 @@ pub(crate) struct Arguments {
     /// Write everything that was measured to a file, as benchmarks/record.schema.json describes it
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write a page about it, one file that needs no network: charts of every contest, and its bodies in motion
+    /// Write a page about it: one file that needs no network, with charts of every contest, and its
+    /// bodies in motion
     #[arg(long, value_name = "FILE.html", value_parser = crate::report::page_name)]
     report: Option<PathBuf>,
     /// Write every chart as SVG into a folder
     #[arg(long, value_name = "FOLDER")]
     svg: Option<PathBuf>,
-    /// Nothing on standard output, and no progress; for --json
+    /// Print nothing on standard output, and show no progress; for --json
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
     over: Overwrite,
 }
 
-/// How every record begins.
+/// Beginning of every record, by which the program recognises its own files.
 const RECORD: &str = r#"{"format":1,"machine":{"processor":"#;
 
 const EXAMPLES: &str = "\
@@ -53,7 +59,7 @@ Examples:
   pliant bench degrees --rounds 9                  medians of more rounds
   pliant bench levels --quiet --json record.json   where it is quiet: a record";
 
-/// Whether other libraries take part in it that this program was built without.
+/// Whether an experiment needs other libraries that this program was built without.
 fn is_missing(title: &Title) -> bool {
     EXPERIMENTS
         .iter()
@@ -77,7 +83,7 @@ fn experiments_help() -> String {
     format!("Experiments:\n{lines}\n{EXAMPLES}")
 }
 
-/// Runs experiments and prints what was found.
+/// Runs the chosen experiments and prints their results.
 pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let asked: Vec<&Title> = TITLES
         .iter()
@@ -86,7 +92,7 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if asked.is_empty() {
         let names: Vec<_> = TITLES.iter().map(|title| title.name).collect();
         bail!(
-            "there is no experiment \"{}\"; there are {} and all",
+            "there is no experiment \"{}\"; there are {} and all; choose one of these",
             shown(&arguments.name),
             names.join(", ")
         );
@@ -104,7 +110,7 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
         .collect();
     let over = arguments.over;
     if let Some(file) = &arguments.json {
-        // Before hours are spent: can it be written?
+        // Checked before hours are spent.
         output::prepare(file, RECORD, over)?;
     }
     if let Some(page) = &arguments.report {
@@ -149,7 +155,7 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
         }
         record.experiments.push(done);
         if let Some(file) = &arguments.json {
-            // After each experiment: what was measured is not lost if a later one fails.
+            // After each experiment, so that nothing is lost if a later one fails.
             let text = serde_json::to_string(&record)?;
             output::write(file, RECORD, over, |out| writeln!(out, "{text}"))?;
         }

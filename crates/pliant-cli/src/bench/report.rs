@@ -1,4 +1,4 @@
-//! A page about experiments, and their charts as SVG: figures 3 and 4 of the paper, with what is measured beside what moves.
+//! A page about experiments, and their charts as SVG files, like figures 3 and 4 of the paper.
 
 use crate::output::{self, MARK, Overwrite};
 use crate::report::{asked, chart, counted, fact, write_page};
@@ -13,7 +13,7 @@ use pliant_report::{Chart, Play, Recorder, Report};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// What makes a picture: two contests with the same show the same.
+/// Key of a recorded motion: contests with equal keys share one recording.
 type Shows = (String, usize, usize, Vec<u32>, bool);
 
 fn shows(contest: &ContestRecord) -> Shows {
@@ -99,7 +99,7 @@ pub(super) fn write(
     write_page(path, &report, over)
 }
 
-/// Writes every chart into a folder.
+/// Writes every chart into a folder, as one SVG file each.
 pub(super) fn write_charts(
     folder: &Path,
     experiment: &ExperimentRecord,
@@ -122,7 +122,7 @@ pub(super) fn write_charts(
     Ok(())
 }
 
-/// Letters and digits, and a hyphen for all between.
+/// File name from a text: its letters and digits in lower case, hyphens between words.
 fn file_name(text: &str) -> String {
     let words = text
         .split(|c: char| !c.is_ascii_alphanumeric())
@@ -130,7 +130,7 @@ fn file_name(text: &str) -> String {
     words.collect::<Vec<_>>().join("-").to_ascii_lowercase()
 }
 
-/// One contest of an experiment.
+/// One contest of an experiment, as the page shows it.
 fn play(done: &ExperimentRecord, place: usize) -> Play {
     let contest = &done.contests[place];
     let mut play = Play::new(&format!("{}: {}", done.experiment, contest.name), "step");
@@ -153,7 +153,7 @@ fn play(done: &ExperimentRecord, place: usize) -> Play {
             ));
         }
     }
-    // A claim about one contest begins with its name; those about several stand with the first.
+    // A claim about one contest begins with its name. All others stand with the first contest.
     let names = |claim: &Claim, contest: &ContestRecord| claim.claim.starts_with(&contest.name);
     let of_this = |claim: &&Claim| {
         let of_one = done.contests.iter().any(|contest| names(claim, contest));
@@ -174,7 +174,7 @@ fn play(done: &ExperimentRecord, place: usize) -> Play {
     play
 }
 
-/// Update and query together, then each alone: time by method, and by phase.
+/// Charts of time per step by method: update and query together, then each phase alone.
 fn charts(contest: &ContestRecord) -> Vec<(&'static str, Chart)> {
     let phases: [(&str, &str, fn(&MethodRecord, usize) -> f64); 3] = [
         ("both", "update and query", |method, step| {
@@ -208,7 +208,8 @@ fn charts(contest: &ContestRecord) -> Vec<(&'static str, Chart)> {
         .collect()
 }
 
-/// Plays a motion once more, with our library, to see which triangles are red and which boxes are made.
+/// Plays a motion once more with our library, to record which triangles intersect and which boxes
+/// are made.
 fn replay(motion: &Motion, of_itself: bool, motions: usize) -> pliant_report::Motion {
     let mut world = World::<f32>::new();
     let bodies: Vec<_> = motion
@@ -219,10 +220,10 @@ fn replay(motion: &Motion, of_itself: bool, motions: usize) -> pliant_report::Mo
     let mut recorder = Recorder::one_of(Vec::new(), motions);
     for (&step, frame) in motion.steps.iter().zip(&motion.frames) {
         for (&body, placed) in bodies.iter().zip(frame) {
-            // The methods were given the same positions; they are good.
+            // No error: the methods were given the same positions.
             let _ = world.set_positions(body, &placed.world);
         }
-        // The methods were asked for one or the other.
+        // The same query as the methods were asked.
         let of = if of_itself {
             bodies.iter().map(|&body| Selection::Within(body)).collect()
         } else {

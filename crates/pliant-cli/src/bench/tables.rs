@@ -1,4 +1,4 @@
-//! What was measured, for people.
+//! Tables of measurements, for a terminal.
 
 use crate::report::counted;
 use crate::table::{grouped, table};
@@ -8,7 +8,7 @@ use pliant_bench::record::{
 use pliant_bench::time::duration;
 use std::fmt::Write;
 
-/// Where and with what, in one line.
+/// Processor, system and versions in one line.
 pub(super) fn machine_line(machine: &Machine) -> String {
     let versions: Vec<String> = machine
         .versions
@@ -28,7 +28,7 @@ pub(super) fn machine_line(machine: &Machine) -> String {
     )
 }
 
-/// All contests of an experiment, and what follows.
+/// Tables of all contests of an experiment, and its claims.
 pub(super) fn experiment(record: &ExperimentRecord) -> String {
     let mut text = String::new();
     let small = if record.small {

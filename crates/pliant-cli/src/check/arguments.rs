@@ -1,4 +1,4 @@
-//! What is asked of `pliant check`.
+//! Arguments of `pliant check`.
 
 use super::names::{self, Names};
 use crate::frames::Frames;
@@ -17,19 +17,34 @@ use std::path::PathBuf;
     reason = "each is a flag of the program"
 )]
 pub(crate) struct Arguments {
-    /// One body each: a mesh (.obj, .ply, .stl), a sequence (.npz), a mesh with its positions (mesh.obj+walk.pc2, .mdd, .npy), or a quoted pattern whose files in natural order are its frames ('cloth_*.obj'); each body of a glTF file (.glb, .gltf, .vrm), or one of them (scene.glb#arm); a group of an OBJ file, a solid of an STL file, or of a pattern (scan.obj#arm)
+    /// One body each: a mesh (.obj, .ply, .stl), a sequence (.npz), or a mesh with its positions
+    /// (mesh.obj+walk.pc2, .mdd, .npy). A quoted pattern ('cloth_*.obj'): its files in natural
+    /// order are the frames of one body. A glTF file (.glb, .gltf, .vrm): each of its bodies, or
+    /// one (scene.glb#arm). One group of an OBJ file, or one solid of an STL file (scan.obj#arm),
+    /// also of a pattern
     #[arg(value_name = "BODY", required = true, value_hint = ValueHint::FilePath)]
     pub(super) bodies: Vec<String>,
     /// Check each body against itself too; one body alone always is
     #[arg(long = "self")]
     pub(super) itself: bool,
-    /// Instead of what intersects, the triangles of different bodies that are at most D apart, in the unit of the files; those that intersect are 0 apart. Of one body neighbours always are that close: not with --self
-    #[arg(long, value_name = "D", allow_negative_numbers = true, value_parser = distance, conflicts_with = "png")]
+    /// Report triangles of different bodies that are at most D apart, instead of those that
+    /// intersect. D is in the unit of the files; triangles that intersect are 0 apart. Not with
+    /// --self: in one body, neighbours always are that close
+    #[arg(
+        long,
+        value_name = "D",
+        allow_negative_numbers = true,
+        value_parser = distance,
+        conflicts_with = "png"
+    )]
     pub(super) within: Option<f64>,
-    /// Leave out places where surfaces only touch, as along a cut: where no triangles cross and no surface passes through another, not even exactly at edges and vertices. Where it is not clear what a side is, a place stays. Not with --within
+    /// Leave out places where surfaces only touch, as along a cut. There no triangles cross, and no
+    /// surface passes through another, not even exactly at edges and vertices. Where it is not
+    /// clear what a side is, a place stays. Not with --within
     #[arg(long, conflicts_with = "within")]
     pub(super) crossing: bool,
-    /// Only these frames: 100..200 are 100 to 199; 100.. and ..200 are open; 100 is one; 100..200:10 is every tenth, and what meets on the way to the next goes ten frames on
+    /// Only these frames: 100..200 are 100 to 199; 100.. and ..200 are open; 100 is one;
+    /// 100..200:10 is every tenth. With --swept, each way then leads ten frames on
     #[arg(
         long,
         value_name = "A..B:STEP",
@@ -37,26 +52,41 @@ pub(crate) struct Arguments {
         allow_negative_numbers = true
     )]
     pub(super) frames: Frames,
-    /// Besides what intersects in a frame, what meets on the way from it to the next, every corner on a straight line: a vertex and a triangle, or two edges, and when first. Costs many times what a check of the frames alone does. Not with --within, --baseline, --hits, --format lines or github
+    /// Also find what meets on the way from each frame to the next, and when first: a vertex and a
+    /// triangle, or two edges. Every corner moves on a straight line. Takes many times as long as
+    /// the frames alone. Not with --within, --baseline, --hits, --format lines or github
     #[arg(long)]
     pub(super) swept: bool,
-    /// Only how many pairs, not which
+    /// Print only how many pairs, not which
     #[arg(long)]
     pub(super) count: bool,
-    /// Stop at the first pair of each frame; with --within the nearest pair; with --swept the first to meet on the way to the next, too
+    /// Stop at the first pair of each frame. With --within, that is the nearest pair. With --swept,
+    /// stop also at the first to meet on the way to the next frame
     #[arg(long)]
     pub(super) first: bool,
-    /// Make every connected piece of a file a body: FILE#1, FILE#2, ...; or every group of an OBJ file, every solid of an STL file: FILE#NAME; in the order of their lowest triangle. Triangles keep their numbers, and those that share a vertex of the file are left out
+    /// Make every connected piece of a file a body (FILE#1, FILE#2, ...), or every group of an OBJ
+    /// file and solid of an STL file (FILE#NAME). Bodies come in the order of their lowest
+    /// triangle, and triangles keep their numbers. Triangles that share a vertex of the file are
+    /// left out
     #[arg(long, value_enum, value_name = "INTO")]
     pub(super) split: Option<Split>,
-    /// Give several bodies a name, for --ignore; each by its name, or by its number, from 0; a glTF file stands for all its bodies
+    /// Give several bodies a name, for --ignore. Each is named by its name, or by its number, from
+    /// 0. A glTF file stands for all its bodies
     #[arg(long = "group", value_name = "NAME=BODY,BODY", value_parser = names::group)]
     pub(super) groups: Vec<Group>,
-    /// Bodies, or groups, that do not meet; A,A means that those of A do not meet each other, nor themselves
+    /// Leave out pairs of two bodies, or of two groups. A,A leaves out pairs within the group A,
+    /// also of each of its bodies with itself
     #[arg(long, value_name = "A,B", value_parser = names::two)]
     pub(super) ignore: Vec<Names>,
-    /// Only what is new: leave out the pairs that intersect in this frame, from 0, or in any frame of an earlier check, whose --format json was written to a file
-    #[arg(long, value_name = "FRAME|FILE", allow_negative_numbers = true, value_parser = names::baseline, value_hint = ValueHint::FilePath)]
+    /// Report only new pairs: leave out pairs that intersect in this frame, from 0, or in any frame
+    /// of an earlier check. FILE is the output of that check with --format json
+    #[arg(
+        long,
+        value_name = "FRAME|FILE",
+        allow_negative_numbers = true,
+        value_parser = names::baseline,
+        value_hint = ValueHint::FilePath
+    )]
     pub(super) baseline: Option<Baseline>,
     /// Leave out pairs with a triangle that has no area
     #[arg(long)]
@@ -64,7 +94,8 @@ pub(crate) struct Arguments {
     /// Keep vertices apart where boundary edges coincide; seams are then intersections
     #[arg(long)]
     pub(super) no_weld: bool,
-    /// Join boundary edges besides that are no further apart than TOL times the diagonal of their body, in each frame: 1e-6
+    /// Also join boundary edges that are at most TOL times the diagonal of their body apart, in
+    /// each frame: 1e-6
     #[arg(
         long,
         value_name = "TOL",
@@ -73,25 +104,35 @@ pub(crate) struct Arguments {
         conflicts_with = "no_weld"
     )]
     pub(super) weld: f64,
-    /// The most memory that a frame may take, seam finding included, and again that a list of pairs may (4GiB, 512MiB, 1G, bytes); a frame that says it is larger is refused before it is read
+    /// The most memory that a frame may take, also while seams are found: 4GiB, 512MiB, 1G, bytes.
+    /// A list of pairs may take as much again. A frame that says it is larger is refused before it
+    /// is read
     #[arg(long, value_name = "SIZE", default_value = "4GiB", value_parser = size::parse)]
     pub(super) max_memory: u64,
     /// The animation of glTF files, by name; the first if none is named
     #[arg(long, value_name = "NAME")]
     pub(super) clip: Option<String>,
     /// Frames a second at which animations of glTF files are evaluated
-    #[arg(long, value_name = "N", default_value = "30", allow_negative_numbers = true, value_parser = rate::parse)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "30",
+        allow_negative_numbers = true,
+        value_parser = rate::parse
+    )]
     pub(super) fps: f64,
     /// How many threads share the work; no number changes an answer
     #[arg(long, value_name = "T", default_value = "1", value_parser = at_least_one::<NonZeroUsize>)]
     pub(super) threads: NonZeroUsize,
-    /// A table by frame, one JSON object, annotations for GitHub Actions, or a line for each pair: FRAME BODY TRIANGLE BODY TRIANGLE
+    /// A table by frame, one JSON object, annotations for GitHub Actions, or a line for each pair:
+    /// FRAME BODY TRIANGLE BODY TRIANGLE
     #[arg(long, value_enum, default_value_t = Format::Table)]
     pub(super) format: Format,
-    /// Write the triangles that intersect for ParaView, a .vtp or .vtu; of several frames a file each, and a .pvd that names them
+    /// Write the triangles that intersect for ParaView, as .vtp or .vtu. Each of several frames has
+    /// a file, and a .pvd lists them all
     #[arg(long, value_name = "FILE")]
     pub(super) hits: Option<PathBuf>,
-    /// Nothing on standard output: the exit code says it
+    /// Print nothing on standard output; the exit code says whether anything was found
     #[arg(short, long)]
     pub(super) quiet: bool,
     #[command(flatten)]
@@ -122,19 +163,28 @@ Examples:
   pliant check walk.npz --swept --report walk.html   with the moments of contact
   pliant check walk.npz --quiet && echo clean
 
-With --swept all elements that meet on the way count, but those that meet in the frame before already. They are of both bodies where two share them. It looks from each frame to the next only: where a mesh changes in between, nothing moves, and that is said.
-Exit code 0: nothing intersects, is as close as that, or meets on the way. 1: something does. 2: it could not be checked; standard error says why.
-Memory: at most 3.5 times two frames (positions and triangles) and 12 MB, however many frames there are, 7.5 times two frames where the mesh changes from file to file, and 11 times with --swept; beside it the pairs of one frame, where they are listed, left out or written, their places (up to 60 bytes a vertex that is hit), with --crossing 32 bytes a pair and 200 a triangle near one, and of glTF bodies that move the rest positions, joints, deltas and keys.
-Too much? Check fewer bodies at once, or with --count or --first; --max-memory refuses larger frames before they are read.";
+With --swept, elements count that meet on the way, except those that meet in the frame already. \
+An element that two bodies share is of both. \
+The way leads from a frame to the next: where a mesh changes between them, nothing is looked for, \
+and a note says so.
+Exit code 0: nothing intersects, is at most D apart, or meets on the way. 1: something does. \
+2: it could not be checked; standard error says why.
+Memory: at most 3.5 times two frames (positions and triangles) and 12 MB, however many frames \
+there are. 7.5 times two frames where the mesh changes from file to file, and 11 times with \
+--swept. Beside it the pairs of one frame, where they are listed, left out or written, and their \
+places: up to 60 bytes a vertex that is hit. With --crossing 32 bytes a pair and 200 a triangle \
+near one. Of glTF bodies that move, the rest positions, joints, deltas and keys.
+Too much? Check fewer bodies at once, or use --count or --first. \
+--max-memory refuses larger frames before they are read.";
 
-/// What files are split into.
+/// Parts of a file that become bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Split {
     Components,
     Groups,
 }
 
-/// How answers are printed.
+/// Output formats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Format {
     Table,
@@ -143,7 +193,7 @@ pub(super) enum Format {
     Lines,
 }
 
-/// A distance that triangles may have from each other.
+/// Parses a distance: at least 0 and finite.
 fn distance(text: &str) -> Result<f64, String> {
     let distance = text.parse().ok();
     distance

@@ -1,8 +1,8 @@
-//! Figures as people read them.
+//! Numbers, formatted for people.
 
 use crate::table::grouped;
 
-/// Four digits that count: nobody types it elsewhere.
+/// Four significant digits. Enough to read; nobody types them elsewhere.
 pub(super) fn short(x: f64) -> String {
     let digits = format!("{x:.3e}");
     match digits.parse::<f64>() {
@@ -13,7 +13,7 @@ pub(super) fn short(x: f64) -> String {
     }
 }
 
-/// `1 vertex`, `2 vertices`.
+/// A number and its noun: `1 vertex`, `2 vertices`.
 pub(super) fn counted((number, one, many): (usize, &str, &str)) -> String {
     let name = if number == 1 { one } else { many };
     format!("{} {name}", grouped(number as u64))

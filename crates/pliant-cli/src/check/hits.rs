@@ -1,10 +1,12 @@
-//! `--hits`: the triangles that intersect, as ParaView reads them.
+//! `--hits`: the triangles that intersect, in [XML files of VTK][vtk] for ParaView.
 //!
-//! VTK's XML formats: `.vtp` (polygons) or `.vtu` (unstructured cells). A file holds the triangles of one frame that intersect
-//! others, with the numbers of their `body` and `triangle` and how many `partners` each has; its points have the numbers of
-//! their `vertex`. Of several frames each is a file, also one in which nothing intersects (else the last would stay on the
-//! screen), and a `.pvd` beside them names them all. Arrays are base64: every bit of a coordinate, and half the size of text.
-//! The format: <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
+//! A file, `.vtp` (polygons) or `.vtu` (unstructured cells), holds the intersecting triangles of
+//! one frame. Cells have the numbers of their `body` and `triangle` and the count of their
+//! `partners`; points have the number of their `vertex`. Of several frames each has a file, even
+//! without hits, since ParaView would keep showing the last. A `.pvd` file beside them lists all
+//! files. Arrays are in base64: every bit of a coordinate, and half the size of text.
+//!
+//! [vtk]: https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 
 use crate::output::{self, MARK, Overwrite};
 use anyhow::bail;
@@ -14,14 +16,14 @@ use pliant_io::{Precision, shown};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// The files of one check.
+/// Output files of one check.
 pub(super) struct Hits {
     path: PathBuf,
     kind: Kind,
     over: Overwrite,
-    /// How many the number of a frame has in the name of its file; none where there is one file.
+    /// Number of digits of frame numbers in file names; `None` where there is one file.
     digits: Option<usize>,
-    /// Of each frame the number and the name of the file, where there are several.
+    /// Frame numbers and file names, where there are several files.
     written: Vec<(usize, String)>,
 }
 
@@ -40,7 +42,7 @@ impl Kind {
     }
 }
 
-/// What is written of one frame.
+/// Intersecting triangles of one frame, as they are written.
 #[derive(Default)]
 struct Mesh {
     /// Source and vertex of each point, sorted.
@@ -48,12 +50,12 @@ struct Mesh {
     bodies: Vec<u32>,
     triangles: Vec<u32>,
     partners: Vec<u32>,
-    /// Points of the corners.
+    /// Indices of points, three a triangle.
     corners: Vec<i64>,
 }
 
 impl Hits {
-    /// Sees to it that files can be written for these frames.
+    /// Checks that files can be written for these frames.
     pub(super) fn new(
         path: &Path,
         frames: impl Iterator<Item = usize> + Clone,
@@ -77,7 +79,8 @@ impl Hits {
             let name = path.file_name().unwrap_or_default();
             if !name.to_string_lossy().chars().all(is_xml) {
                 bail!(
-                    "--hits {}: of several frames a file of XML names all others, and cannot hold this name; give another",
+                    "--hits {}: with several frames a .pvd file, which is XML, lists the others, \
+                     and cannot hold this name; give another",
                     shown(path)
                 );
             }
@@ -89,7 +92,7 @@ impl Hits {
         Ok(hits)
     }
 
-    /// The file of a frame.
+    /// Path of a frame's file.
     fn of_frame(&self, frame: usize) -> PathBuf {
         let Some(digits) = self.digits else {
             return self.path.clone();
@@ -100,12 +103,12 @@ impl Hits {
         self.path.with_file_name(name)
     }
 
-    /// The file that names all others.
+    /// Path of the `.pvd` file, which lists all others.
     fn collection(&self) -> PathBuf {
         self.path.with_extension("pvd")
     }
 
-    /// Writes the frame that was checked last.
+    /// Writes the file of the frame that was checked last.
     pub(super) fn frame(&mut self, check: &Check, found: &Found) -> anyhow::Result<()> {
         let path = self.of_frame(found.frame);
         if self.digits.is_some() {
@@ -119,7 +122,7 @@ impl Hits {
         })
     }
 
-    /// Writes the collection, if there are several files.
+    /// Writes the `.pvd` file, if there are several files.
     pub(super) fn end(self) -> anyhow::Result<()> {
         if self.written.is_empty() {
             return Ok(());
@@ -144,7 +147,6 @@ impl Mesh {
             .flat_map(|&[body_a, a, body_b, b]| [[body_a, a], [body_b, b]]);
         let mut ends: Vec<[u32; 2]> = ends.collect();
         ends.sort_unstable();
-        // The place of a source is looked up once for a run of triangles.
         let corners_of = |&[body, triangle]: &[u32; 2]| {
             let source = check.source_of(body).unwrap_or_default();
             let corners = check.sources()[source].triangles()[triangle as usize];
@@ -176,10 +178,11 @@ impl Mesh {
     ) -> io::Result<()> {
         let (points, cells) = (self.points.len(), self.bodies.len());
         begin(out, kind.name())?;
-        writeln!(
+        write!(
             out,
-            r#"<FieldData><DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="ascii">{frame}</DataArray></FieldData>"#
+            r#"<FieldData><DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" "#
         )?;
+        writeln!(out, r#"format="ascii">{frame}</DataArray></FieldData>"#)?;
         let (count_of_cells, cells_are) = match kind {
             Kind::PolyData => ("NumberOfPolys", "Polys"),
             Kind::UnstructuredGrid => ("NumberOfCells", "Cells"),
@@ -247,7 +250,7 @@ fn end(out: &mut dyn Write, kind: &str) -> io::Result<()> {
     writeln!(out, "</{kind}>\n</VTKFile>")
 }
 
-/// An array: its length in bytes and its bytes, together in base64.
+/// Writes an array: its length in bytes and its bytes, together in base64.
 fn array<const N: usize>(
     out: &mut dyn Write,
     kind: &str,
@@ -256,7 +259,7 @@ fn array<const N: usize>(
 ) -> io::Result<()> {
     let components = match name {
         "Points" => r#" NumberOfComponents="3""#,
-        // One; where it is said, meshio makes a column of them.
+        // One is the default. Where it is written, meshio makes a column of the numbers.
         _ => "",
     };
     let mut bytes = vec![0; size_of::<u64>()];
@@ -270,7 +273,8 @@ fn array<const N: usize>(
     )
 }
 
-/// A name as the value of an attribute. Readers of XML make spaces of what breaks a line, unless it is written as a number.
+/// Escapes a name for an attribute. Readers of XML turn line breaks into spaces, unless they are
+/// written as numbers.
 fn attribute(name: &str) -> String {
     let escaped = name.chars().map(|c| match c {
         '&' => "&amp;".to_owned(),
@@ -282,7 +286,7 @@ fn attribute(name: &str) -> String {
     escaped.collect()
 }
 
-/// Whether XML has a way to write a character.
+/// Whether a character can be written in XML.
 fn is_xml(c: char) -> bool {
     !matches!(c, '\0'..='\u{8}' | '\u{b}' | '\u{c}' | '\u{e}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}')
 }

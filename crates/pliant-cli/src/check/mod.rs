@@ -1,4 +1,4 @@
-//! `pliant check`: somebody's meshes, frame by frame.
+//! `pliant check`: checks meshes and sequences frame by frame.
 
 mod arguments;
 mod figures;
@@ -26,7 +26,8 @@ use pliant_io::{OpenOptions, shown};
 pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if let Some(pattern) = pliant_io::looks_like_a_series(&arguments.bodies) {
         complain(&format!(
-            "note: {} arguments are {0} bodies; if they are frames of one body, quote the pattern: '{}'",
+            "note: {} arguments are {0} bodies; \
+             if they are frames of one body, quote the pattern: '{}'",
             arguments.bodies.len(),
             shown(&pattern)
         ));
@@ -65,17 +66,18 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
     Ok(outcome)
 }
 
-/// What to say of bodies of very different sizes if nothing is found.
+/// A note about bodies of very different sizes, for a check that finds nothing.
 fn unlike_sizes(check: &Check) -> Option<String> {
     let [(large, most), (small, least)] = check.unlike_sizes()?;
     let [large, small] = [large, small].map(shown);
     let [most, least] = [most, least].map(short);
     Some(format!(
-        "note: nothing was found, and the longest side of {large} is {most}, that of {small} {least}: are they of one unit?"
+        "note: nothing was found, and the longest side of {large} is {most}, \
+         that of {small} {least}: are they of one unit?"
     ))
 }
 
-/// Refuses what has no form for what meets between two frames.
+/// Refuses output formats that cannot express contacts between two frames.
 fn can_be_swept(arguments: &Arguments) -> anyhow::Result<()> {
     let other = match (&arguments.hits, arguments.format) {
         _ if !arguments.swept => return Ok(()),
@@ -85,7 +87,8 @@ fn can_be_swept(arguments: &Arguments) -> anyhow::Result<()> {
         _ => return Ok(()),
     };
     bail!(
-        "--swept: {other}, and has no room for what meets between two; leave out one of them, or use `--format table` or `--format json`"
+        "--swept: {other}, and has no room for what meets between two; \
+         leave out one of them, or use `--format table` or `--format json`"
     )
 }
 
@@ -122,7 +125,7 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
     Check::open(&arguments.bodies, &reading, &settings)
 }
 
-/// Whether anything shows places.
+/// Whether any output shows places.
 fn finds_places(arguments: &Arguments) -> bool {
     let printed = !arguments.quiet && !arguments.count && arguments.format != Format::Lines;
     printed || arguments.pictures.any()
@@ -147,7 +150,7 @@ fn frames(
     loop {
         let frame = numbers.next().unwrap_or_default();
         let kept = hits.is_some() || pictures.looks_at(frame);
-        // Where only the exit code is asked for, one pair says as much as all.
+        // For the exit code alone, one pair says as much as all.
         check.ask(first || quiet && !kept, kept || printed);
         let Some(found) = check.next_frame()? else {
             break;
@@ -167,12 +170,14 @@ fn frames(
     Ok(())
 }
 
-/// Says where pairs lie at seams that are not quite closed.
+/// Prints notes about pairs at seams that are not quite closed.
 fn at_seams(check: &Check) {
     for (number, source) in check.sources().iter().enumerate() {
         if let Some(at_seams) = check.at_seams(number) {
             complain(&format!(
-                "note: {}: {} of its {} pairs with itself in frame {} lie where boundary edges nearly coincide, up to {:.1e} of its size apart; if those are seams, `--weld {:e}` joins them",
+                "note: {}: {} of its {} pairs with itself in frame {} lie where boundary edges \
+                 nearly coincide, up to {:.1e} of its size apart; if those are seams, \
+                 `--weld {:e}` joins them",
                 shown(source.name()),
                 at_seams.pairs,
                 at_seams.of,
@@ -184,7 +189,7 @@ fn at_seams(check: &Check) {
     }
 }
 
-/// Says where seams part from frame to frame.
+/// Prints notes about seams that part from frame to frame.
 fn parted_seams(check: &Check, tolerance: f64) {
     for (number, source) in check.sources().iter().enumerate() {
         if let Some(parted) = check.parted(number) {
@@ -200,22 +205,25 @@ fn parted_seams(check: &Check, tolerance: f64) {
     }
 }
 
-/// With what to do about the name of a piece, `FILE#1`, or of a group, `FILE.obj#NAME`, where no file is split; the error itself where
-/// it is none.
+/// Adds advice to an error about an unknown name of a piece or group, where no file is split.
+///
+/// Pieces are named `FILE#1`, groups `FILE.obj#NAME`. Returns all other errors unchanged.
 fn advise_names(arguments: &Arguments, error: Error) -> anyhow::Error {
     match &error {
         Error::NoSuchName { name, .. }
             if arguments.split.is_none() && names::is_of_a_piece(name) =>
         {
             anyhow!(
-                "{error}; choose one of these, or make the pieces of every file bodies with `--split components`"
+                "{error}; choose one of these, \
+                 or make the pieces of every file bodies with `--split components`"
             )
         }
         Error::NoSuchName { name, .. }
             if arguments.split.is_none() && pliant_io::group_argument(name).is_some() =>
         {
             anyhow!(
-                "{error}; choose one of these, or make the groups of OBJ files bodies with `--split groups`"
+                "{error}; choose one of these, \
+                 or make the groups of OBJ files bodies with `--split groups`"
             )
         }
         _ => error.into(),

@@ -1,9 +1,10 @@
-//! What meets on the way from a frame to the next: the first in words, and all as a page shows it.
+//! Contacts between two frames: the first in words, and all for a page.
 
 use pliant_check::{FirstImpact, Impact, Interval};
 use pliant_report::{Contact, Elements, Moment};
 
-/// The two elements, in words; `name` says what a body is called, nothing where nobody needs to be told.
+/// The first two elements in contact, in words. `name` returns a body's name; an empty one is left
+/// out.
 pub(super) fn elements(first: &FirstImpact, name: impl Fn(u32) -> String) -> [String; 2] {
     let of = |element: String, body: u32| match name(body) {
         name if name.is_empty() => element,
@@ -27,7 +28,7 @@ pub(super) fn elements(first: &FirstImpact, name: impl Fn(u32) -> String) -> [St
     }
 }
 
-/// What meets in an interval, the first to meet before all others; none where nothing does.
+/// All contacts of an interval, the first contact before the others. `None` if there are none.
 pub(super) fn moment(interval: &Interval) -> Option<Moment> {
     let first = match interval.first? {
         FirstImpact::VertexTriangle(impact) => of_vertex(&impact),
@@ -36,7 +37,7 @@ pub(super) fn moment(interval: &Interval) -> Option<Moment> {
     let vertices = interval.vertex_triangle.iter().map(of_vertex);
     let edges = interval.edge_edge.iter().map(of_edges);
     let mut contacts: Vec<Contact> = vertices.chain(edges).collect();
-    // Of equally early ones it is known which is the first, and the others stay in order.
+    // Of equally early contacts the first is known. The others keep their order.
     contacts.sort_by(|a, b| {
         let is_later = |it: &Contact| *it != first;
         (is_later(a).cmp(&is_later(b))).then(a.time.total_cmp(&b.time))

@@ -1,11 +1,11 @@
-//! Names of bodies and groups, as people write them: `NAME=BODY,BODY` and `A,B`.
+//! Names of bodies and groups on the command line: `NAME=BODY,BODY` and `A,B`.
 
 use pliant_check::{Baseline, Group};
 
-/// A comma or an equals sign inside a name would end it.
+/// Advice where a name contains a separator: a comma or an equals sign would end it.
 const OTHERWISE: &str = "a body whose name has a comma or an equals sign is named by its number";
 
-/// `A,B`.
+/// Two names, written `A,B`.
 pub(super) type Names = [String; 2];
 
 pub(super) fn group(text: &str) -> Result<Group, String> {
@@ -29,7 +29,7 @@ pub(super) fn two(text: &str) -> Result<Names, String> {
     }
 }
 
-/// A number is that of a frame, anything else a file.
+/// Parses a baseline: a number is a frame, anything else a file.
 pub(super) fn baseline(text: &str) -> Result<Baseline, String> {
     if text.parse::<f64>().is_ok() {
         return crate::report::frame(text).map(Baseline::Frame);
@@ -37,7 +37,7 @@ pub(super) fn baseline(text: &str) -> Result<Baseline, String> {
     Ok(Baseline::File(text.into()))
 }
 
-/// Whether a name is as those of pieces are: `FILE#1`, from 1.
+/// Whether a name has the form of a piece: `FILE#1`, counted from 1.
 pub(super) fn is_of_a_piece(name: &str) -> bool {
     let number = name
         .rsplit_once('#')

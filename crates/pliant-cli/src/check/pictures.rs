@@ -1,7 +1,7 @@
-//! `--report` and `--png` of a check: what is left of each frame's pairs, in the world as the check left it.
+//! Pages and pictures of a check: the pairs that it reports, in the world as the check left it.
 //!
-//! A picture has the sources as its bodies, with the triangles' own numbers; a page tells pieces and groups of a source apart. Groups that
-//! were not asked for are in both too.
+//! In a picture the bodies are the sources, and triangles have their own numbers. A page also tells
+//! pieces and groups of a source apart. Both show groups that were not asked for.
 
 use super::arguments::{Arguments, Split};
 use super::figures::short;
@@ -13,19 +13,26 @@ use pliant_check::{AnyWorld, Baseline, Check, Found, Interval, Row, with_world};
 use pliant_io::shown;
 use pliant_report::{BodyLabel, Gap, Parts};
 
-/// Looks at the frames of one check.
+/// Note on a page about contacts between frames.
+const BETWEEN_FRAMES: &str = "\
+Between two frames every corner moves on a straight line. Where something meets on the way, and \
+not in the frame already, the picture has a frame more. It lists what meets, the earliest first, \
+and shows the bodies at the contact that is chosen, with the triangles there in red, and the \
+vertex (as a cross), the edges or the triangle that meet drawn over everything.";
+
+/// Page and picture of one check.
 pub(super) struct Pictures {
     watcher: Watcher,
     way: Way,
 }
 
-/// What all intervals between frames come to.
+/// Totals over all intervals between frames.
 #[derive(Default)]
 struct Way {
     looked_at: usize,
     meeting: usize,
     skipped: usize,
-    /// The frames of the first in which something meets, and when.
+    /// Frames of the first interval with a contact, and the time of that contact.
     first: Option<([usize; 2], f64)>,
 }
 
@@ -42,13 +49,14 @@ impl Way {
         }
     }
 
-    /// In a sentence.
+    /// Summary in a sentence.
     fn found(&self) -> String {
         let [meeting, all] = [self.meeting, self.looked_at].map(|n| grouped(n as u64));
         match self.first {
             None => "On the way from frame to frame nothing meets.".to_owned(),
             Some(([frame, until], time)) => format!(
-                "On the way from a frame to the next something meets in {meeting} of {all}, first after {} of the way from frame {frame} to {until}.",
+                "On the way from a frame to the next something meets in {meeting} of {all}, \
+                 first after {} of the way from frame {frame} to {until}.",
                 short(time)
             ),
         }
@@ -64,12 +72,12 @@ impl Pictures {
         })
     }
 
-    /// Whether they need all pairs of this frame.
+    /// Whether all pairs of this frame are needed.
     pub(super) fn looks_at(&self, frame: usize) -> bool {
         self.watcher.looks_at(frame as u32)
     }
 
-    /// Takes the frame that was checked last.
+    /// Records the frame that was checked last.
     pub(super) fn frame(&mut self, check: &Check, found: &Found) -> anyhow::Result<()> {
         let number = found.frame as u32;
         if !self.watcher.looks_at(number) {
@@ -83,7 +91,7 @@ impl Pictures {
         let gap = |gap: &pliant_check::Gap| {
             let [a, b] = gap.points;
             let pair = of_sources(check, gap.pair);
-            // The points change places with their triangles.
+            // If the triangles change places, so do their points.
             let is_same =
                 check.source_of(gap.pair[0]) == Some(pair[0] as usize) && gap.pair[1] == pair[1];
             Gap {
@@ -95,27 +103,29 @@ impl Pictures {
         let mut gaps: Vec<Gap> = found.gaps.iter().map(gap).collect();
         gaps.sort_unstable_by_key(|gap| gap.pair);
         let places = found.places.as_deref().unwrap_or_default();
-        // Of one body nobody needs to be told whose it is.
+        // With one body, nobody needs to be told its name.
         let name = |body| match check.body(body) {
             Some(body) if check.body_count() > 1 => shown(body.name),
             _ => String::new(),
         };
         let watcher = &mut self.watcher;
-        // Of a first pair nobody has found a place.
+        // A first pair has no place.
         match &found.places {
             Some(_) => {
-                with_world!(check.world(), world => watcher.frame_with(number, world, &pairs, places, &gaps, name))
+                with_world!(check.world(), world => {
+                    watcher.frame_with(number, world, &pairs, places, &gaps, name)
+                })
             }
             None => with_world!(check.world(), world => watcher.frame(number, world, &pairs)),
         }
     }
 
-    /// Whether they show what meets between frames.
+    /// Whether contacts between frames are shown.
     pub(super) fn shows_moments(&self) -> bool {
         self.watcher.has_page()
     }
 
-    /// Takes what meets on the way from the frame that was checked last.
+    /// Records contacts on the way from the frame that was checked last.
     pub(super) fn interval(&mut self, check: &Check, interval: &Interval) {
         if !self.shows_moments() {
             return;
@@ -139,10 +149,15 @@ impl Pictures {
         }
         watcher.finish("check", "frame", |_, play| {
             if arguments.swept {
-                play.facts.push(fact("ways with contacts", way.meeting.to_string()));
-                play.notes.push("Between two frames every corner moves on a straight line. Where something meets on the way, and not in the frame already, the picture has a frame more. It lists what meets, the earliest first, and shows the bodies at the contact that is chosen, with the triangles there in red, and the vertex (as a cross), the edges or the triangle that meet drawn over everything.".to_owned());
+                play.facts
+                    .push(fact("ways with contacts", way.meeting.to_string()));
+                play.notes.push(BETWEEN_FRAMES.to_owned());
                 if way.skipped > 0 {
-                    play.notes.push(format!("Where a mesh changes between two frames nothing was looked for: {} of them.", way.skipped));
+                    play.notes.push(format!(
+                        "Where a mesh changes between two frames nothing was looked for: \
+                         {} of them.",
+                        way.skipped
+                    ));
                 }
             }
             let precision = match check.world() {
@@ -196,7 +211,7 @@ impl Pictures {
     }
 }
 
-/// What the page calls the sources, and the pieces or groups that they are split into.
+/// Names of the sources on the page, and of the pieces or groups of each.
 fn labels(check: &Check) -> Vec<BodyLabel> {
     let sources = check.sources().iter().enumerate();
     let label = sources.map(|(number, source)| BodyLabel {
@@ -226,7 +241,7 @@ fn parts(check: &Check, number: usize) -> Parts {
     }
 }
 
-/// A pair of bodies of answers as a pair of sources, the smaller first.
+/// Renumbers a pair of bodies as a pair of sources, the smaller first.
 fn of_sources(check: &Check, [body_a, a, body_b, b]: Row) -> Row {
     let source = |body| check.source_of(body).unwrap_or_default() as u32;
     let (one, other) = ((source(body_a), a), (source(body_b), b));

@@ -1,6 +1,7 @@
-//! `pliant convert`: a mesh or a sequence in another format.
+//! `pliant convert`: writes a mesh or a sequence in another format.
 //!
-//! Streamed like a check: in memory is one frame. Vertices stay as they are in the file, of a group those that it has; an STL file has none of its own, so its
+//! Frames are streamed, as in a check: one is in memory at a time. Vertices stay as they are in the
+//! file; a group keeps the vertices that it uses. An STL file has no shared vertices, so its
 //! corners are welded and each place is written once.
 
 use crate::frames::Frames;
@@ -16,13 +17,17 @@ use std::collections::BTreeMap;
 #[derive(Args, Debug)]
 #[command(after_help = FORMATS)]
 pub(crate) struct Arguments {
-    /// What to read, as for `pliant check`: a mesh, a sequence, a quoted pattern ('cloth_*.obj'), a mesh with its positions (mesh.obj+walk.pc2), a body of a glTF file (scene.glb#arm), a group of an OBJ file (scan.obj#arm)
+    /// The input, as for `pliant check`: a mesh, a sequence, a quoted pattern ('cloth_*.obj'), or a
+    /// mesh with its positions (mesh.obj+walk.pc2). Or one body of a glTF file (scene.glb#arm), or
+    /// one group of an OBJ file (scan.obj#arm)
     #[arg(value_name = "IN")]
     from: String,
-    /// What to write: a mesh (.obj, .ply, .stl), a sequence (.npz, mesh.obj+walk.pc2, mesh.obj+walk.mdd), or a mesh a frame (cloth_%04d.obj)
+    /// The output: a mesh (.obj, .ply, .stl), a sequence (.npz, mesh.obj+walk.pc2,
+    /// mesh.obj+walk.mdd), or a mesh for each frame (cloth_%04d.obj)
     #[arg(value_name = "OUT")]
     to: String,
-    /// Only these frames: 10..20 are 10 to 19; 10.. and ..20 are open; 10 is one; 10..20:3 is every third
+    /// Only these frames: 10..20 are 10 to 19; 10.. and ..20 are open; 10 is one; 10..20:3 is every
+    /// third
     #[arg(
         long,
         value_name = "A..B:STEP",
@@ -33,19 +38,27 @@ pub(crate) struct Arguments {
     /// The animation of a glTF file, by name; the first if none is named
     #[arg(long, value_name = "NAME")]
     clip: Option<String>,
-    /// Frames a second: at which an animation of a glTF file is evaluated, and that an MDD file says it has
-    #[arg(long, value_name = "N", default_value = "30", allow_negative_numbers = true, value_parser = rate::parse)]
+    /// Frames a second, at which an animation of a glTF file is evaluated, and which an MDD file
+    /// states
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "30",
+        allow_negative_numbers = true,
+        value_parser = rate::parse
+    )]
     fps: f64,
     /// Write over files that are there
     #[arg(long)]
     force: bool,
-    /// Nothing on standard output
+    /// Print nothing on standard output
     #[arg(short, long)]
     quiet: bool,
     /// Keep the corners of an STL file apart
     #[arg(long)]
     no_weld: bool,
-    /// Join boundary edges that are no further apart than TOL times the diagonal of the body, and write each place once
+    /// Join boundary edges that are at most TOL times the diagonal of the body apart, and write
+    /// each place once
     #[arg(
         long,
         value_name = "TOL",
@@ -54,7 +67,8 @@ pub(crate) struct Arguments {
         conflicts_with = "no_weld"
     )]
     weld: f64,
-    /// The most memory that a frame may take (4GiB, 512MiB, 1G, bytes); a frame that says it is larger is refused before it is read
+    /// The most memory that a frame may take: 4GiB, 512MiB, 1G, bytes. A frame that says it is
+    /// larger is refused before it is read
     #[arg(long, value_name = "SIZE", default_value = "4GiB", value_parser = size::parse)]
     max_memory: u64,
 }
@@ -66,10 +80,11 @@ Examples:
   pliant convert fox.glb fox.obj+fox.pc2 --clip Run  a mesh and its positions
   pliant convert walk.npz pose.stl --frames 12       one frame
 
-A file appears under its name when it is whole; nothing is written over without --force. glTF is read, not written.
+A file appears under its name when it is whole; nothing is written over without --force.
+glTF is read, not written.
 STL, PC2 and MDD have 32-bit coordinates: others are rounded, and a note says so.";
 
-/// Reads, writes, and says what was written.
+/// Reads a body, writes its frames, and says how much was written.
 pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let is_stl = arguments.from.to_ascii_lowercase().ends_with(".stl");
     let mut body = pliant_io::open(
@@ -116,7 +131,9 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
         next = frame + 1;
         let name = shown(body.name());
         let positions = body.next_frame()?;
-        let positions = positions.with_context(|| format!("{name}: frame {frame} is missing"))?;
+        let positions = positions.with_context(|| {
+            format!("{name}: frame {frame} is missing; wait until it is written, then try again")
+        })?;
         writer.frame(match &vertices {
             None => positions,
             Some(vertices) => some.pick(positions, vertices),
@@ -124,7 +141,9 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
         if let Some(parted) = body.parted_seams() {
             let [a, b] = parted.vertices;
             bail!(
-                "{name}: vertices {a} and {b} are one in frame 0 and {:.1e} of the body's size apart in frame {frame}; what is written has one mesh: use `--no-weld`, or `--weld` with more than that",
+                "{name}: vertices {a} and {b} are one in frame 0 and {:.1e} of the body's size \
+                 apart in frame {frame}; what is written has one mesh: use `--no-weld`, \
+                 or `--weld` with more than that",
                 parted.farthest
             );
         }
@@ -142,8 +161,9 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
     Ok(Outcome::Clear)
 }
 
-/// The vertices to write, None for all, and the triangles between them: without those that were welded away, and of a group those
-/// that it has.
+/// Vertices to write (`None`: all), and the triangles and outlines between them.
+///
+/// Leaves out vertices that were welded away, or that a group does not use.
 fn kept(body: &Body) -> (Option<Vec<u32>>, Vec<[u32; 3]>, Outlines) {
     let (mut triangles, mut outlines) = (body.triangles().to_vec(), body.outlines());
     if body.welded() == 0 && !body.is_part() {
@@ -157,17 +177,17 @@ fn kept(body: &Body) -> (Option<Vec<u32>>, Vec<[u32; 3]>, Outlines) {
             vertices.len() as u32 - 1
         });
     }
-    // Every corner of a polygon is one of its triangles.
+    // Corners of polygons are corners of triangles, so each has a number.
     for corner in outlines.values_mut().flatten() {
         *corner = number[*corner as usize].unwrap_or_default();
     }
     (Some(vertices), triangles, outlines)
 }
 
-/// The corners of polygons that are no fans.
+/// Corners of polygons that did not become fans, by the number of the polygon.
 type Outlines = BTreeMap<u32, Vec<u32>>;
 
-/// Some of the positions of a frame.
+/// Positions of the vertices to write, picked from all positions of a frame.
 #[derive(Default)]
 struct Picked {
     narrow: Vec<[f32; 3]>,

@@ -1,4 +1,4 @@
-//! `pliant run`: play a scene, time every step, report.
+//! `pliant run`: plays a built-in scene, times every step, and reports.
 
 mod query;
 mod record;
@@ -21,7 +21,10 @@ use std::time::Instant;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// spheres: two move into each other; crowd: 27 jostle; arms: 27 bodies with arms; gather: many move to one place; cloth: a sheet folds onto itself. Meshes change in cut: a sphere is sliced; tear: a sheet is torn, then folds; fuse: two merge; shuffle: pieces that all go elsewhere; remesh: triangles are split and collapsed
+    /// The scene. spheres: two move into each other. crowd: 27 jostle. arms: 27 bodies with arms.
+    /// gather: many move to one place. cloth: a sheet folds onto itself. In the others meshes
+    /// change. cut: a sphere is sliced. tear: a sheet is torn, then folds. fuse: two merge.
+    /// shuffle: pieces that all go elsewhere. remesh: triangles are split and collapsed
     #[arg(default_value = "spheres")]
     scene: String,
     /// Triangles of a body [default: the scene's]
@@ -31,21 +34,34 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..))]
     steps: Option<u32>,
     /// Play every S-th step: S, 2 S, ...
-    #[arg(long, value_name = "S", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(
+        long,
+        value_name = "S",
+        default_value = "1",
+        value_parser = clap::value_parser!(u32).range(1..)
+    )]
     stride: u32,
-    /// All pairs between bodies, the first pair between bodies, all pairs of each body with itself, or both [default: all; self for cloth; everything where meshes change]
+    /// Pairs to find. all: between bodies. first: one pair between bodies. self: of each body with
+    /// itself. everything: all and self [default: all; self for cloth; everything where meshes
+    /// change]
     #[arg(long, value_enum)]
     query: Option<Query>,
-    /// Coordinates; f64 are the same values widened
+    /// Type of coordinates; f64 has the values of f32, widened
     #[arg(long, value_enum, default_value_t = Precision::F32)]
     precision: Precision,
     /// A scene of the same kind with other bumps
-    #[arg(long, value_name = "SEED", allow_negative_numbers = true, value_parser = seed, default_value_t = Scene::DEFAULT_SEED)]
+    #[arg(
+        long,
+        value_name = "SEED",
+        allow_negative_numbers = true,
+        value_parser = seed,
+        default_value_t = Scene::DEFAULT_SEED
+    )]
     seed: u64,
     /// A table, or one JSON object with a figure for every step
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
-    /// Nothing on standard output, and no progress
+    /// Print nothing on standard output, and show no progress
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
@@ -66,7 +82,7 @@ Examples:
   pliant run --partition centre --leaf-size 1 --degree 4 --update top-down
   pliant run gather --format json > gather.json  a figure for every step";
 
-/// A seed as people write it.
+/// Parses a seed.
 fn seed(text: &str) -> Result<u64, String> {
     text.parse()
         .map_err(|_| format!("write a whole number from 0 to {}", u64::MAX))
@@ -84,7 +100,7 @@ enum Format {
     Json,
 }
 
-/// Plays the scene and prints what happened.
+/// Plays the scene and prints the record.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let scene = AnyScene::new(&arguments.scene, arguments.triangles, arguments.seed)?;
     let last = arguments.steps.unwrap_or(scene.steps());
@@ -134,7 +150,9 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     Ok(Outcome::Clear)
 }
 
-/// One world, step by step. Positions are computed before the clock starts, so vertices are in cache where they fit.
+/// Plays one world step by step, and measures every step.
+///
+/// Positions are computed before the clock starts, so vertices are in the cache where they fit.
 fn play<S: Scalar>(
     arguments: &Arguments,
     scene: &AnyScene,
@@ -157,12 +175,12 @@ fn play<S: Scalar>(
     let mut shapes = vec![Vec::new(); scene.body_count()];
     let mut bodies = Vec::new();
     for (body, positions) in shapes.iter_mut().enumerate() {
-        // Trees are built on the shape of the first step, whatever steps are played.
+        // Trees are built on the shape of the first step, whichever steps are played.
         shape(body, None, positions);
         bodies.push(
             world
                 .add(scene.triangles(body), positions)
-                .context("the scene is not as it should be")?,
+                .context("a bug of pliant, please report it: a built-in scene is refused")?,
         );
     }
 
@@ -174,7 +192,7 @@ fn play<S: Scalar>(
     let mut played = Vec::with_capacity(steps.len());
     let mut before = 0;
     for &step in steps {
-        // What happens in steps that are not played happens off the clock.
+        // Changes in steps that are not played happen off the clock.
         for passed in (before + 1..step).filter(|&step| scene.changes(step)) {
             for (body, positions) in shapes.iter_mut().enumerate() {
                 shape(body, Some(passed), positions);
@@ -188,7 +206,7 @@ fn play<S: Scalar>(
         let start = Instant::now();
         scene.change(&mut world, &bodies, step, &shapes)?;
         for (&body, positions) in bodies.iter().zip(&shapes) {
-            // A body that is fused with another is no more.
+            // A body that was fused with another is gone.
             if !positions.is_empty() {
                 world.set_positions(body, positions)?;
             }

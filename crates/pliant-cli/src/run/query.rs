@@ -1,8 +1,8 @@
-//! What is asked of a scene.
+//! Queries of `pliant run`.
 
 use clap::ValueEnum;
 
-/// Which pairs are asked for.
+/// Selection of pairs that a run asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Query {
     All,

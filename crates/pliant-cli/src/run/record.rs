@@ -1,4 +1,4 @@
-//! What was played, for people and for programs.
+//! Measurements of a run, as tables, as JSON and for a page.
 
 use crate::report::{chart, counted, fact};
 use crate::table::{grouped, table};
@@ -9,18 +9,18 @@ use pliant_report::Play;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// One step.
+/// Measurements of one step.
 pub(super) struct StepRecord {
     pub(super) step: u32,
     pub(super) pairs: usize,
-    /// Taking over the positions of all bodies, and `update`.
+    /// Time to set the positions of all bodies and to prepare the query.
     pub(super) update_ms: f64,
-    /// The rest: the query, boxes made on the way included.
+    /// Time of the query itself, including boxes that the traversal makes.
     pub(super) query_ms: f64,
     pub(super) statistics: Statistics,
 }
 
-/// A whole run.
+/// Measurements of a whole run.
 pub(super) struct Record<'a> {
     pub(super) scene: &'a str,
     pub(super) bodies: usize,
@@ -35,7 +35,7 @@ pub(super) struct Record<'a> {
     pub(super) played: Vec<StepRecord>,
 }
 
-/// The counters by name, in the order of the phases.
+/// Counters with their JSON names and their titles, in the order of the phases.
 fn named(statistics: &Statistics) -> [(&'static str, &'static str, u64); 8] {
     [
         ("body_pairs", "pairs of bodies", statistics.body_pairs),
@@ -83,7 +83,7 @@ impl Record<'_> {
         total
     }
 
-    /// One object: scene, options, and a list a figure, with one entry a step played.
+    /// One JSON object: scene, options, and one list per figure with an entry for each step played.
     pub(super) fn json(&self) -> Value {
         let list =
             |figure: fn(&StepRecord) -> Value| self.played.iter().map(figure).collect::<Value>();
@@ -101,7 +101,9 @@ impl Record<'_> {
             "pairs": list(|step| step.pairs.into()),
             "update_ms": list(|step| step.update_ms.into()),
             "query_ms": list(|step| step.query_ms.into()),
-            "statistics": named(&self.total()).into_iter().map(|(name, _, count)| (name.to_owned(), count.into()))
+            "statistics": named(&self.total())
+                .into_iter()
+                .map(|(name, _, count)| (name.to_owned(), count.into()))
                 .collect::<serde_json::Map<_, _>>(),
         });
         if let Value::Object(members) = &mut object {
@@ -110,7 +112,7 @@ impl Record<'_> {
         object
     }
 
-    /// For a page.
+    /// Adds facts and charts to a page.
     pub(super) fn tell(&self, play: &mut Play) {
         play.facts.extend([
             fact("query", self.asked()),
@@ -155,7 +157,7 @@ impl Record<'_> {
         ]);
     }
 
-    /// The query, for people.
+    /// The query in words.
     fn asked(&self) -> &'static str {
         match self.query.as_str() {
             "first" => "first pair between bodies",
@@ -165,7 +167,7 @@ impl Record<'_> {
         }
     }
 
-    /// For a terminal.
+    /// Tables for a terminal.
     pub(super) fn table(&self) -> String {
         let mut text = String::new();
         let asked = self.asked();
@@ -239,7 +241,7 @@ impl Record<'_> {
     }
 }
 
-/// Of at least one sorted value.
+/// Median of sorted values, at least one.
 fn median(sorted: &[f64]) -> f64 {
     f64::midpoint(sorted[(sorted.len() - 1) / 2], sorted[sorted.len() / 2])
 }

@@ -1,22 +1,31 @@
-//! A scene of either kind: one whose meshes stay, or one in which they change.
+//! Scenes of both kinds: with fixed meshes, or with meshes that change.
 
 use super::query::Query;
+use anyhow::bail;
 use pliant::{BodyId, Scalar, World};
 use pliant_bench::methods::add_step;
-use pliant_scenes::{Asks, ChangingScene, Event, Scene, SceneError};
+use pliant_io::shown;
+use pliant_scenes::{Asks, ChangingScene, Event, Scene};
 
-/// A scene to be played.
+/// A scene to play.
 pub(super) enum AnyScene {
     Still(Scene),
     Changing(ChangingScene),
 }
 
 impl AnyScene {
-    pub(super) fn new(name: &str, triangles: Option<usize>, seed: u64) -> Result<Self, SceneError> {
+    pub(super) fn new(name: &str, triangles: Option<usize>, seed: u64) -> anyhow::Result<Self> {
         if ChangingScene::NAMES.contains(&name) {
-            return ChangingScene::new(name, triangles, seed).map(Self::Changing);
+            let scene = ChangingScene::new(name, triangles, seed)?;
+            return Ok(Self::Changing(scene));
         }
-        Scene::new(name, triangles, seed).map(Self::Still)
+        // The library's error names scenes of one kind alone.
+        if !Scene::NAMES.contains(&name) {
+            let names = [Scene::NAMES, ChangingScene::NAMES].concat().join(", ");
+            let name = shown(name);
+            bail!("there is no scene \"{name}\"; there are {names}; choose one of these");
+        }
+        Ok(Self::Still(Scene::new(name, triangles, seed)?))
     }
 
     pub(super) fn name(&self) -> &'static str {
@@ -33,7 +42,7 @@ impl AnyScene {
         }
     }
 
-    /// What is asked if nothing else is said.
+    /// The query that is asked by default.
     pub(super) fn query(&self) -> Query {
         match self {
             Self::Changing(_) => Query::Everything,
@@ -44,7 +53,7 @@ impl AnyScene {
         }
     }
 
-    /// How many bodies there are at the beginning.
+    /// Number of bodies at the beginning.
     pub(super) fn body_count(&self) -> usize {
         match self {
             Self::Still(scene) => scene.body_count(),
@@ -52,7 +61,7 @@ impl AnyScene {
         }
     }
 
-    /// The triangles of a body at the beginning.
+    /// Triangles of a body at the beginning.
     pub(super) fn triangles(&self, body: usize) -> &[[u32; 3]] {
         match self {
             Self::Still(scene) => scene.triangles(body),
@@ -60,7 +69,7 @@ impl AnyScene {
         }
     }
 
-    /// Where a body is when its tree is built, whatever steps are played.
+    /// Positions of a body when its tree is built, whichever steps are played.
     pub(super) fn first_positions(&self, body: usize, out: &mut Vec<[f32; 3]>) {
         match self {
             Self::Still(scene) => scene.positions(body, 1, out),
@@ -68,7 +77,7 @@ impl AnyScene {
         }
     }
 
-    /// Where a body is at a step; nothing once it is fused with another.
+    /// Positions of a body at a step; empty once it is fused with another.
     pub(super) fn positions(&self, body: usize, step: u32, out: &mut Vec<[f32; 3]>) {
         match self {
             Self::Still(scene) => scene.positions(body, step, out),
@@ -76,12 +85,12 @@ impl AnyScene {
         }
     }
 
-    /// Whether meshes change in a step.
+    /// Whether any mesh changes in a step.
     pub(super) fn changes(&self, step: u32) -> bool {
         matches!(self, Self::Changing(scene) if !scene.events(step).is_empty())
     }
 
-    /// Lets happen to the meshes of a world what happens in a step; the shapes are those of the step.
+    /// Applies the mesh changes of a step to a world. `shapes` are the positions in that step.
     pub(super) fn change<S: Scalar>(
         &self,
         world: &mut World<S>,

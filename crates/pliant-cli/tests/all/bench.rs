@@ -1,4 +1,4 @@
-//! `pliant bench` from end to end, in small form.
+//! End-to-end tests of `pliant bench`, in small form.
 
 use crate::common::pliant;
 

@@ -1,16 +1,16 @@
-//! `pliant check` from end to end: every exit code, and every way in which files can be wrong.
+//! End-to-end tests of `pliant check`: every exit code, and every kind of wrong file.
 
 use crate::common::{check, folder, kinds, pliant};
 use serde_json::json;
 use std::fs;
 use std::path::Path;
 
-/// A right-angled triangle of side 2 in the plane z, as an OBJ file.
+/// An OBJ file: a right-angled triangle of side 2 in the plane z.
 fn flat(z: f64) -> String {
     format!("v 0 0 {z}\nv 2 0 {z}\nv 0 2 {z}\nf 1 2 3\n")
 }
 
-/// A triangle that stands upright in x = 0.5 and crosses the plane z = 0 if `z` is above -1 and below 1.
+/// A triangle upright in x = 0.5, which crosses the plane z = 0 if `z` is between -1 and 1.
 fn upright(z: f64) -> String {
     format!(
         "v 0.5 0.25 {}\nv 0.5 0.25 {}\nv 0.5 0.75 {}\nf 1 2 3\n",
@@ -20,7 +20,7 @@ fn upright(z: f64) -> String {
     )
 }
 
-/// Two triangles without a common vertex: do they cross each other?
+/// Two triangles without a common vertex, which cross each other if asked to.
 fn pair(crossing: bool) -> String {
     let z = if crossing { 0.0 } else { 5.0 };
     flat(0.0) + &upright(z).replace("f 1 2 3", "f 4 5 6")
@@ -173,7 +173,7 @@ fn a_pattern_is_a_sequence_in_natural_order() {
     assert_eq!(said.counts(), [1, 0, 1]);
     assert_eq!((said.code, said.err.as_str()), (1, ""));
 
-    // A shell that expanded the pattern made three bodies of it.
+    // A shell that expands the pattern makes three bodies of it.
     let expanded = check(folder.path(), &["move_9.obj", "move_10.obj", "move_11.obj"]);
     assert!(expanded.err.contains("'move_*.obj'"), "{}", expanded.err);
     assert_eq!(expanded.code, 1, "bodies 0 and 2 are in the same place");
@@ -187,7 +187,10 @@ fn polygons_are_triangles_that_know_their_face() {
     let said = check(folder.path(), &["quad.obj", "--format", "json"]);
     assert_eq!(
         said.json()["bodies"][0],
-        json!({"name": "quad.obj", "box": [[0.0, 0.0, -1.0], [4.0, 4.0, 1.0]], "vertices": 7, "triangles": 3, "faces": [0, 0, 1]})
+        json!({
+            "name": "quad.obj", "box": [[0.0, 0.0, -1.0], [4.0, 4.0, 1.0]],
+            "vertices": 7, "triangles": 3, "faces": [0, 0, 1]
+        })
     );
     // The upright triangle touches the diagonal at (0.5, 0.5), and so both halves of the square.
     assert_eq!(
@@ -326,7 +329,7 @@ fn the_table_names_the_file_of_each_frame() {
         rows(&["[0-9]*.obj", "--count"]),
         of_numbers.map(|row| row.get(..27).unwrap_or(row))
     );
-    // What all have in common is said in the line of the body.
+    // The common folder is named in the line of the body.
     let whole = path.join("[0-9]*.obj");
     assert_eq!(rows(&[whole.to_str().unwrap()]), of_numbers);
     let of_folders = rows(&["*/b.obj"]);
@@ -335,7 +338,7 @@ fn the_table_names_the_file_of_each_frame() {
         let file = Path::new(file).join("b.obj").display().to_string();
         assert!(row.split_whitespace().any(|word| word == file), "{row}");
     }
-    // Two bodies in files: the header says of which.
+    // Two bodies in files: the header says whose files are listed.
     let of_two = rows(&["still.obj", "*/b.obj", "[0-9]*.obj"]);
     assert_eq!(of_two[0], "   frame  file of body 1     pairs  first pair");
     assert_eq!(of_two[2].find("1  two"), Some(7), "{}", of_two[2]);
@@ -374,7 +377,8 @@ fn a_long_sequence_is_streamed() {
         folder.path(),
         &["f*.obj", "ground.obj", "--format", "json", "--count"],
     );
-    // Upright triangles reach from z - 1 to z + 1, so they meet the ground at z = -1, 0 and 1: touching counts.
+    // Upright triangles reach from z - 1 to z + 1: they meet the ground at z = -1, 0 and 1, as
+    // touching counts.
     let expected: Vec<u64> = (0..120)
         .map(|frame| u64::from((2..=4).contains(&(frame % 7))))
         .collect();
@@ -407,7 +411,8 @@ fn wrong_words_are_explained() {
 
 #[test]
 fn pairs_are_counted_by_how_they_intersect() {
-    // Against a triangle in z = 0: one that goes through it, one that stands on it, one that lies on it, and one beside it.
+    // Against a triangle in z = 0: one crosses it, one stands on it, one lies on it, one is beside
+    // it.
     let folder = folder(&[
         ("a.obj", flat(0.0)),
         ("through.obj", upright(0.0)),
@@ -429,7 +434,8 @@ fn pairs_are_counted_by_how_they_intersect() {
     assert_eq!(of(&["a.obj", "on.obj"]), kinds([0, 0, 1]));
     assert_eq!(of(&["a.obj", "lies.obj"]), kinds([0, 1, 0]));
     assert_eq!(of(&["a.obj", "beside.obj"]), kinds([0, 0, 1]));
-    // Where nothing intersects, not all pairs are asked for, or how near they are, nothing is said of it.
+    // Kinds are not reported where nothing intersects, where not all pairs are asked for, or with a
+    // distance.
     let first = ["a.obj", "through.obj", "--first"];
     let within = ["a.obj", "through.obj", "--within", "1"];
     for files in [&["on.obj", "beside.obj"][..], &first, &within] {
@@ -471,7 +477,7 @@ fn frames_are_chosen() {
     ] {
         assert_eq!(chosen(&["--frames", frames]), expected, "{frames}");
     }
-    // A baseline may be another frame, and the exit code is that of these frames.
+    // A baseline may be another frame. The exit code depends on these frames alone.
     let said = check(
         folder.path(),
         &["a_*.obj", "--frames", "3..:3", "--baseline", "0"],
@@ -482,7 +488,7 @@ fn frames_are_chosen() {
         check(folder.path(), &["a_*.obj", "--frames", "1..3"]).code,
         0
     );
-    // Pages, pictures and files for ParaView are of these frames, too.
+    // Pages, pictures and files for ParaView show these frames, too.
     let files = [
         "--hits", "hits.vtp", "--report", "a.html", "--png", "a.png", "--frame", "7",
     ];
@@ -510,7 +516,7 @@ fn frames_are_chosen() {
             .iter()
             .all(|name| folder.path().join(name).exists())
     );
-    // What meets on the way goes from one of these to the next.
+    // Contacts are sought on the way from one of these frames to the next.
     let said = check(folder.path(), &["a_*.obj", "--swept", "--frames", "1..9:3"]);
     assert!(
         said.out.contains("to 4") && !said.out.contains("to 5"),
@@ -523,7 +529,7 @@ fn frames_are_chosen() {
     };
     refused(&["--frames", "8..11"], &["frame 10", "0 to 9"]);
     refused(&["--frames", "10.."], &["frame 10", "0 to 9"]);
-    refused(&["--frames", "5..5"], &["no frame is from 5"]);
+    refused(&["--frames", "5..5"], &["5..5 has no frames"]);
     refused(&["--frames", "1..5:0"], &["10..20:3"]);
     refused(&["--frames", "1-5"], &["10..20:3"]);
     refused(&["--frames", "3", "--swept"], &["--swept"]);

@@ -1,4 +1,4 @@
-//! `pliant convert` from end to end, and `pliant check` on what it reads and writes.
+//! End-to-end tests of `pliant convert`, and of `pliant check` on its input and output.
 
 use crate::common::pliant;
 use std::fs;
@@ -10,7 +10,8 @@ fn sequence() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (frame, z) in [1.5, 0.1, -2.5].into_iter().enumerate() {
         let text = format!(
-            "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0.1 0.2 {z}\nv 0.3 0.1 {}\nv 0.2 0.3 {}\nf 1 2 3 4\nf 5 6 7\n",
+            "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n\
+             v 0.1 0.2 {z}\nv 0.3 0.1 {}\nv 0.2 0.3 {}\nf 1 2 3 4\nf 5 6 7\n",
             z + 1.0,
             z - 0.5
         );
@@ -46,12 +47,13 @@ fn a_sequence_is_the_same_in_every_format() {
         expected[0] == 0 && expected[1] > 0 && expected[2] == 0,
         "{expected:?}"
     );
-    // In 32 bits the coordinates are others, and a note says so.
+    // Rounding to 32 bits changes the coordinates, and a note says so.
     let said = pliant(path, &["convert", "s?.obj", "m.obj+c.pc2"]);
     assert_eq!(said.code, 0);
     assert_eq!(
         said.err,
-        "pliant: note: m.obj+c.pc2 has 32-bit coordinates, s?.obj has 64-bit ones: they were rounded\n"
+        "pliant: note: m.obj+c.pc2 has 32-bit coordinates, s?.obj has 64-bit ones: they were \
+         rounded\n"
     );
     assert_eq!(said.out, "m.obj+c.pc2: 3 frames, 7 vertices, 3 triangles\n");
     let mut from = "m.obj+c.pc2".to_owned();
@@ -122,7 +124,7 @@ fn gltf_is_evaluated_and_not_written() {
     assert_eq!(there.counts(), check(&["s.npz"]).counts());
     assert_eq!(there.counts().len(), 5);
 
-    // It has two clips; the table says which was taken.
+    // The file has two clips. The table says which was taken.
     let table = pliant(path, &["check", &file]).out;
     let head = table.lines().next().unwrap();
     assert!(head.ends_with(", clip bend"), "{head}");
@@ -171,7 +173,7 @@ fn what_is_there_is_written_over_only_by_force() {
         "exists already",
         "--force",
     ]);
-    // What fails half way, at the third of three frames, leaves nothing.
+    // A failure half way, at the third of three frames, leaves nothing.
     fs::write(path.join("s2.obj"), "v 0 0\n").unwrap();
     for to in ["new.npz", "m.obj+new.mdd", "precious.npz"] {
         pliant(path, &["convert", "s?.obj", to, "--force"]).assert_refused(&["s2.obj", "line 1"]);
@@ -180,7 +182,7 @@ fn what_is_there_is_written_over_only_by_force() {
     assert_eq!(fs::read_dir(path).unwrap().count(), before);
     convert(path, &["s0.obj", "precious.npz", "--force"]);
     assert_eq!(counts(path, "precious.npz"), [0]);
-    // Onto itself: read to the end before it is replaced.
+    // A file converted onto itself is read to the end before it is replaced.
     convert(path, &["precious.npz", "precious.npz", "--force"]);
     assert_eq!(counts(path, "precious.npz"), [0]);
 }

@@ -1,10 +1,10 @@
-//! `pliant check --crossing`, from end to end.
+//! End-to-end tests of `pliant check --crossing`.
 
 use crate::common::{check, folder, pliant};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// A box of so many unit cubes from a corner on, a quadrilateral a side of each.
+/// A box of unit cubes in each direction, a quadrilateral on each outer side, from a corner on.
 fn cubes(from: [f64; 3], size: [usize; 3]) -> String {
     let (mut text, mut faces, mut vertices) = (String::new(), String::new(), 0);
     for axis in 0..3 {
@@ -39,7 +39,7 @@ fn cubes(from: [f64; 3], size: [usize; 3]) -> String {
     text + &faces
 }
 
-/// What a beam is at: on a block, pushed into it exactly along edges of both, pushed into it anyhow, and away from it.
+/// Places of a beam: on a block, pushed in exactly along edges of both, pushed in anyhow, apart.
 const BEAM: [[f64; 3]; 4] = [
     [4.0, 1.0, 1.0],
     [2.0, 1.0, 1.0],
@@ -100,7 +100,7 @@ fn places_that_only_touch_are_left_out_and_what_passes_at_edges_is_not() {
     assert_eq!(counts(&first, "count"), [0, 1, 1, 0]);
     let counted = frames(&["--crossing", "--count"]);
     assert_eq!(counts(&counted, "count"), [0, along, through, 0]);
-    // All that intersects in a frame is known from there on, whether it only touches or not.
+    // A baseline leaves out all pairs that intersect in its frame, whether or not they only touch.
     let known = frames(&["--crossing", "--baseline", "1"]);
     assert_eq!(counts(&known, "left_out")[1], along);
     let known = frames(&["--crossing", "--baseline", "0"]);

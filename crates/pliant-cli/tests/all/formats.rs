@@ -1,4 +1,4 @@
-//! `pliant check` for other programs: --format github, --format lines, --quiet.
+//! Output of `pliant check` for other programs: `--format github`, `--format lines`, `--quiet`.
 
 use crate::common::check;
 use std::fmt::Write;
@@ -7,7 +7,8 @@ use tempfile::TempDir;
 
 const SHEET: &str = "v -1 -1 0\nv 9 -1 0\nv -1 9 0\nf 1 2 3\n";
 
-/// Fifteen frames of an upright triangle that crosses a sheet, and one more above it; frame 2 is clear.
+/// Fifteen frames of an upright triangle that crosses a sheet, and one more above it. Frame 2 is
+/// clear.
 fn folder(name: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for frame in 0..15 {
@@ -28,22 +29,26 @@ fn github_shows_places_on_the_files_of_their_frames() {
     );
     assert_eq!((said.code, said.err.as_str()), (1, ""));
     let lines: Vec<_> = said.out.lines().collect();
-    // Commas, colons and per cents would end the name, or begin an escape. The same place after a frame without it is another.
+    // Commas, colons and percent signs would end the name, or begin an escape.
+    //
+    // After a frame without it, the same place is a new place.
     let first = "triangle 0 of m*.obj and triangle 0 of sheet.obj";
     assert_eq!(
         lines,
         [
             &*format!(
-                "::error file=m%2C100%25%3A_0.obj,title=pliant::place 0: frames 0 to 1, 1 pair at most, in frame 0; the first: {first}"
+                "::error file=m%2C100%25%3A_0.obj,title=pliant::place 0: frames 0 to 1, 1 pair at \
+                 most, in frame 0; the first: {first}"
             ),
             &*format!(
-                "::error file=m%2C100%25%3A_3.obj,title=pliant::place 1: frames 3 to 14, 1 pair at most, in frame 3; the first: {first}"
+                "::error file=m%2C100%25%3A_3.obj,title=pliant::place 1: frames 3 to 14, 1 pair at \
+                 most, in frame 3; the first: {first}"
             ),
             "pliant: 14 of 15 frames intersect; most pairs: 1 in frame 0; 2 places",
         ]
     );
 
-    // Where places are not found, the first frames.
+    // Without places, the first frames are annotated.
     let count = check(
         folder.path(),
         &["m*.obj", "sheet.obj", "--format", "github", "--count"],
@@ -52,7 +57,8 @@ fn github_shows_places_on_the_files_of_their_frames() {
     assert_eq!(
         lines[0],
         format!(
-            "::error file=m%2C100%25%3A_0.obj,title=pliant::frame 0: 1 pair of triangles intersects; the first: {first}"
+            "::error file=m%2C100%25%3A_0.obj,title=pliant::frame 0: 1 pair of triangles \
+             intersects; the first: {first}"
         )
     );
     assert!(
@@ -110,7 +116,8 @@ fn github_says_why_it_could_not_be_checked() {
     }
 }
 
-/// Thirty needles through a sheet of their own each, the third pierced twice; in three frames, in the second of which they are away.
+/// Thirty needles through a sheet each, the third pierced twice; in three frames, clear in the
+/// second.
 #[test]
 fn places_of_table_json_and_annotations_are_the_same() {
     let folder = tempfile::tempdir().unwrap();
@@ -132,7 +139,8 @@ fn places_of_table_json_and_annotations_are_the_same() {
     let places = json["places"].as_array().unwrap();
     assert_eq!((places.len(), json.get("places_left_out")), (60, None));
     let first = serde_json::json!({
-        "number": 2, "frames": [0, 0], "most_pairs": 2, "most_in": 0, "box": [[40.0, -1.0, -1.0], [49.0, 9.0, 7.0]],
+        "number": 2, "frames": [0, 0], "most_pairs": 2, "most_in": 0,
+        "box": [[40.0, -1.0, -1.0], [49.0, 9.0, 7.0]],
         "first_pair": [0, 4, 0, 5], "bodies": [{"body": 0, "triangles": 3, "first_triangle": 4}]
     });
     assert_eq!(places[0], first);
@@ -146,7 +154,8 @@ fn places_of_table_json_and_annotations_are_the_same() {
     let table = said("table").out;
     assert!(
         table.contains(
-            "\n60 places, most pairs first:\n  place 2: 2 pairs in frame 0; 10 across, round (44.5, 4, 3); 3 triangles from 4 on\n"
+            "\n60 places, most pairs first:\n  place 2: 2 pairs in frame 0; 10 across, round \
+             (44.5, 4, 3); 3 triangles from 4 on\n"
         ),
         "{table}"
     );
@@ -163,7 +172,7 @@ fn places_of_table_json_and_annotations_are_the_same() {
     );
     assert!(lines[1].contains("file=m2.obj,title=pliant::place 32: 2 pairs in frame 2; "));
 
-    // Of a first pair, and of numbers alone, nothing is said.
+    // Places are not reported with a first pair, or with numbers alone.
     for less in ["--first", "--count"] {
         for format in ["json", "table"] {
             let said = check(folder.path(), &["m*.obj", "--format", format, less]);
@@ -236,7 +245,7 @@ fn quiet_says_it_by_its_exit_code() {
         let (code, said) = quiet(&["absent.obj"]);
         assert!(code == 2 && said.contains("absent.obj"), "{said}");
     }
-    // A frame that cannot be read matters more than a pair in one before.
+    // An unreadable frame matters more than a pair in an earlier frame.
     fs::write(folder.path().join("m9.obj"), "no mesh").unwrap();
     let said = check(folder.path(), &["m*.obj", "sheet.obj", "-q"]);
     said.assert_refused(&["m9.obj"]);

@@ -1,6 +1,6 @@
-//! `pliant check --hits`: what ParaView is given is what the JSON says. Read by a small reader of XML, here.
+//! Files of `pliant check --hits`, read by a small XML reader and compared with the JSON output.
 //!
-//! A second opinion on whether others can read it: `benchmarks/read_hits.py`.
+//! `benchmarks/read_hits.py` shows that other readers accept them.
 
 use crate::common::{Said, pliant};
 use base64::prelude::{BASE64_STANDARD, Engine};
@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// An array of a file: its type, and its bytes.
+/// An array of a file: type and bytes.
 struct Array {
     kind: String,
     bytes: Vec<u8>,
@@ -36,7 +36,7 @@ impl Array {
     }
 }
 
-/// A file of VTK's: attributes of its elements, and its arrays by name.
+/// A VTK file: attributes of its elements, and its arrays by name.
 #[derive(Default)]
 struct Vtk {
     attributes: BTreeMap<String, String>,
@@ -46,7 +46,7 @@ struct Vtk {
 
 fn unescaped(value: &str) -> String {
     assert!(!value.contains(['<', '"']), "{value}");
-    // A reader makes spaces of these where they stand as they are.
+    // An XML reader would turn these into spaces if they were not escaped.
     assert!(!value.contains(['\t', '\n', '\r']), "{value:?}");
     let text = value.replace("&lt;", "<").replace("&quot;", "\"");
     let text = [("&#9;", "\t"), ("&#10;", "\n"), ("&#13;", "\r")]
@@ -60,7 +60,7 @@ fn unescaped(value: &str) -> String {
     text.replace("&amp;", "&")
 }
 
-/// Reads a file; fails unless every element is ended, in order.
+/// Reads a file. Fails unless all elements are closed in order.
 fn read(path: &Path) -> Vtk {
     let text =
         fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
@@ -124,7 +124,9 @@ fn read(path: &Path) -> Vtk {
     vtk
 }
 
-/// Three files: two crossing sheets of many triangles, of f64, f32 and f64; in three frames the second falls through the first.
+/// Three files of two crossing sheets of many triangles, in f64, f32 and f64.
+///
+/// In three frames the second sheet falls through the first.
 fn folder() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let grid = |z: &dyn Fn(f64, f64) -> f64| {
@@ -157,7 +159,7 @@ fn check(folder: &Path, arguments: &[&str]) -> Said {
     )
 }
 
-/// Fails unless the file has exactly the triangles of the pairs, each with its corners where the OBJ file has them.
+/// Fails unless the file has exactly the triangles of the pairs, with the corners of the OBJ file.
 fn assert_same(vtk: &Vtk, pairs: &serde_json::Value, kind: &str, files: &[&Path]) {
     let pairs: Vec<[u32; 4]> = serde_json::from_value(pairs.clone()).unwrap();
     let mut partners: BTreeMap<[u32; 2], u32> = BTreeMap::new();
@@ -184,7 +186,7 @@ fn assert_same(vtk: &Vtk, pairs: &serde_json::Value, kind: &str, files: &[&Path]
         .collect();
     assert_eq!(found, partners.into_iter().collect::<Vec<_>>());
 
-    // Corners, by the vertices that they say they are, and by where they are.
+    // Corners, by their vertex numbers and by their positions.
     let (corners, vertices) = (whole("connectivity"), whole("vertex"));
     let offsets: Vec<u32> = (1..=bodies.len() as u32).map(|cell| 3 * cell).collect();
     assert_eq!(
@@ -263,7 +265,7 @@ fn one_frame_is_one_file() {
                     .all(|&kind| kind == 5.0)
             );
         }
-        // Where the list is not printed, the file is the same.
+        // Without a printed list, the file is the same.
         let bytes = fs::read(path.join(name)).unwrap();
         for other in [&["--count"][..], &["--quiet"], &["--format", "lines"]] {
             let more = [&["check"], &files[..], &["--hits", name], other].concat();
@@ -310,7 +312,7 @@ fn several_frames_are_a_collection() {
     );
 }
 
-/// Names that Windows does not have.
+/// Names that Windows does not allow.
 #[test]
 #[cfg(unix)]
 fn a_collection_names_its_files_whatever_is_in_their_names() {
@@ -325,7 +327,7 @@ fn a_collection_names_its_files_whatever_is_in_their_names() {
         assert_eq!(entry["file"], format!("{name}_{frame}.vtp"));
         assert!(path.join(&entry["file"]).exists());
     }
-    // XML has no way to write these; one frame is named nowhere.
+    // XML cannot represent these. With one frame, no file contains the name.
     for control in ["\u{1b}.vtp", "\u{ffff}.vtp"] {
         check(path, &[&sequence[..], &[control]].concat())
             .assert_refused(&["cannot hold this name; give another"]);
@@ -380,7 +382,8 @@ fn pieces_and_what_is_left_out() {
 #[test]
 fn single_precision_stays_single() {
     let folder = tempfile::tempdir().unwrap();
-    let header = "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n\
+    let header = "ply\nformat ascii 1.0\nelement vertex 6\n\
+        property float x\nproperty float y\nproperty float z\n\
         element face 2\nproperty list uchar int vertex_indices\nend_header\n";
     let text = "-1 -1 0\n9 -1 0\n-1 9 0\n.1 0 -1\n.1 0 1\n.1 2 1\n3 0 1 2\n3 3 4 5\n";
     fs::write(folder.path().join("a.ply"), header.to_owned() + text).unwrap();

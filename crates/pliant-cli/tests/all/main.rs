@@ -1,4 +1,5 @@
-//! The tests of the crate, one file a module, in one program: a program each is linked with the whole library each time.
+//! Tests of the crate, one file a module, in one program: linking the library once saves time.
+//!
 //! One file: `cargo test -p pliant-cli --test all bench::`.
 
 mod bench;
@@ -9,6 +10,7 @@ mod crossing;
 mod formats;
 mod hits;
 mod memory;
+mod messages;
 mod names;
 mod outputs;
 mod parting;

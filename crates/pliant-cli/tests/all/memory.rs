@@ -1,11 +1,12 @@
-//! The memory that `pliant check` takes: a multiple of two frames, however many there are; split into pieces or not, with a
-//! baseline or not.
+//! Peak memory of `pliant check`: a multiple of two frames, however many frames there are.
 //!
-//! A frame is its positions and triangles: 12 bytes a vertex in f32, 24 in f64, and 12 a triangle. Measured where the system
-//! tells the most memory that a process has taken (Linux); elsewhere the tests say that they are skipped.
+//! A frame is its positions and triangles: 12 bytes a vertex in f32, 24 in f64, and 12 a triangle.
+//! The tests cover splitting into pieces and baselines. They measure where the system reports the
+//! peak of a process (Linux), and elsewhere say that they are skipped.
 //!
 //! ```sh
-//! cargo test --release -p pliant-cli --test all memory:: -- --ignored --nocapture   # the figures in docs/RELIABILITY.md
+//! # the figures in docs/RELIABILITY.md
+//! cargo test --release -p pliant-cli --test all memory:: -- --ignored --nocapture
 //! ```
 
 use crate::common::npz::Surface;
@@ -14,21 +15,24 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-/// What checking takes at most, for each byte of two frames, beyond the program itself.
+/// Peak memory of a check, for each byte of two frames, beyond the program itself.
 const MULTIPLE: f64 = 3.5;
 
-/// The same where the mesh changes from file to file.
+/// Peak factor where the mesh changes from file to file.
 const CHANGING: f64 = 7.5;
 
-/// The same of what meets on the way from frame to frame: the boxes of two shapes, edges, and whose they are.
+/// Peak factor with `--swept`: boxes of two shapes, edges, and their owners.
 const SWEPT: f64 = 11.0;
 
-/// What the program itself takes at most: mostly its code, of which the system maps as much as it likes. Built for tests, most of it
-/// unoptimised, its code takes 4 MB more.
+/// Bytes of the program itself, at most; mostly code, of which the system maps as much as it likes.
+///
+/// A test build, most of it unoptimised, has 4 MB more code.
 const PROGRAM: u64 = if cfg!(debug_assertions) { 16 } else { 12 } << 20;
 
-/// What every body takes besides: its tree, its name, its place in every list; and where its box overlaps another's, its boxes. Of a body
-/// of a few triangles it is the most.
+/// Bytes of each body, at most: its tree, its name, its place in every list.
+///
+/// If its box overlaps another, its boxes too. For a body of a few triangles this is the largest
+/// part.
 const A_BODY: u64 = 2560;
 const A_BODY_THAT_IS_MET: u64 = 4096;
 
@@ -42,13 +46,13 @@ fn peak(folder: &Path, arguments: &[&str]) -> Option<u64> {
     peak
 }
 
-/// What the program itself takes: of small frames, but enough of them that the program is there to be looked at.
+/// Peak of the program itself: small frames, but enough that the program runs while it is measured.
 fn program(folder: &Path) -> Option<u64> {
     fs::write(folder.join("small.npz"), Surface::new(8, 3000).file()).unwrap();
     peak(folder, &["small.npz"])
 }
 
-/// A surface with so many vertices each way: joined or split, in f32 or f64.
+/// A surface with `side` vertices each way: joined or split, in f32 or f64.
 fn surfaces(side: u32, frames: u32) -> [(&'static str, Surface); 3] {
     let joined = Surface::new(side, frames);
     [
@@ -109,7 +113,7 @@ fn memory_does_not_grow_with_the_number_of_frames() {
         let [Some(few), Some(more)] = [few, more].map(|argument| peak(path, &[argument])) else {
             return;
         };
-        // One frame of positions, kept 297 times, would be 13 MB more.
+        // Copies of one frame of positions, 297 of them, would be 13 MB more.
         println!("3 frames: {few} bytes, 300 frames: {more}");
         assert!(more < few + (2 << 20), "{few} {more}");
     }
@@ -133,7 +137,7 @@ fn memory_is_a_multiple_of_two_frames() {
     }
 }
 
-/// However much comes near: nothing is kept of what does not meet.
+/// Close pairs that do not meet are not kept, however many there are.
 #[test]
 fn memory_of_what_meets_on_the_way() {
     let folder = tempfile::tempdir().unwrap();
@@ -148,7 +152,7 @@ fn memory_of_what_meets_on_the_way() {
     }
 }
 
-/// Where the mesh changes from file to file: the first mesh is held too, and for a moment the body before.
+/// If the mesh changes from file to file, the first mesh is held too, and briefly the last body.
 #[test]
 fn memory_where_the_mesh_changes() {
     let folder = tempfile::tempdir().unwrap();
@@ -188,7 +192,8 @@ fn figures() {
             let peak = peak(path, &["a.npz"]).unwrap_or(0);
             let multiple = multiple(peak, program, surface);
             println!(
-                "{frames} frames of {} triangles, {what}: {:.1} MB, {multiple:.2} times two frames of {:.1} MB",
+                "{frames} frames of {} triangles, {what}: {:.1} MB, {multiple:.2} times two frames \
+                 of {:.1} MB",
                 surface.triangles(),
                 peak as f64 / 1e6,
                 surface.bytes_of_a_frame() as f64 / 1e6
@@ -206,7 +211,7 @@ fn memory_of_pieces_and_of_a_baseline() {
         fs::write(path.join("a.npz"), surface.file()).unwrap();
         let split = ["a.npz", "--split", "components"];
         let baseline = ["a.npz", "--baseline", "2"];
-        // Every triangle a piece of its own: welding would join them.
+        // Every triangle is a piece of its own; welding would join them.
         let apart = ["a.npz", "--split", "components", "--no-weld", "--first"];
         let ask = if surface.split {
             &[&apart[..]][..]
@@ -224,7 +229,7 @@ fn memory_of_pieces_and_of_a_baseline() {
     }
 }
 
-/// As much as the same body in an NPZ file, and what the file says of shape and motion.
+/// A glTF body takes as much as in an NPZ file, plus the file's data on shape and motion.
 #[test]
 fn memory_of_gltf() {
     let folder = tempfile::tempdir().unwrap();
@@ -239,15 +244,18 @@ fn memory_of_gltf() {
         let Some(peak) = peak(path, &["a.glb"]) else {
             return;
         };
-        // What moves: its positions at rest; four joints, each a number and a weight, and where they begin; what a target moves,
-        // and how far. Of what stands still nothing is held beside its frame.
+        // A moving body keeps positions at rest, and four joints with a number, a weight and a rest
+        // pose.
+        //
+        // A morph target adds the moved vertices and their offsets. A still body keeps only its
+        // frame.
         let said = match (held, targets) {
             (false, 0) => 0,
             _ => 12 + if held { 4 * 8 + 4 } else { 0 } + 16 * targets as u64,
         };
         let said = said * u64::from(surface.vertices());
         println!("held {held}, {targets} targets: {peak} bytes, {said} said, {plain} without");
-        // Triangles kept twice would be 3.8 MB more.
+        // A second copy of the triangles would be 3.8 MB more.
         assert!(
             peak < plain + said + (2 << 20),
             "held {held}, {targets} targets: {peak}, {plain} and {said}"
@@ -259,7 +267,7 @@ fn memory_of_gltf() {
 fn memory_of_hits() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
-    // Pairs of crossing triangles, each pair on its own: as much to write as there can be for so many pairs.
+    // Pairs of crossing triangles, each pair apart: the most output for this number of pairs.
     let pairs = 50_000_u32;
     let mut text = String::new();
     for pair in 0..pairs {
@@ -281,7 +289,7 @@ fn memory_of_hits() {
     assert!((peak as f64) < MULTIPLE * 2.0 * frame + hits + PROGRAM as f64);
 }
 
-/// A sheet on its like: every triangle is in the place that they make, and is looked at from all sides.
+/// Two equal sheets: every triangle is in their place, and is reached from all sides.
 #[test]
 fn memory_of_what_only_touches() {
     let folder = tempfile::tempdir().unwrap();
@@ -307,7 +315,7 @@ fn memory_of_what_only_touches() {
     assert!((peak as f64) < frames + said, "{peak}");
 }
 
-/// A glTF file of so many bodies, each a triangle of one mesh: side by side, at this distance.
+/// A glTF file of `count` bodies, each a triangle of one mesh, side by side at this distance.
 fn many_triangles(count: u32, distance: f32) -> String {
     // (0, 0, 0), (1, 1, 0.25), (1, 0, 1)
     let corners = "AAAAAAAAAAAAAAAAAACAPwAAgD8AAIA+AACAPwAAAAAAAIA/";
@@ -332,7 +340,7 @@ fn many_triangles(count: u32, distance: f32) -> String {
     )
 }
 
-/// Apart, and in one place: four and a half million pairs of bodies, of which no list is made.
+/// Bodies apart, and in one place: no list of their four and a half million pairs is made.
 #[test]
 fn very_many_small_bodies_take_what_is_said() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,5 +1,7 @@
-//! Names from strangers, through every message: of files, of what is in them, of what is asked. Nothing that a terminal obeys, nothing
-//! that turns or breaks a line, nothing that a CI runner takes for a command, and no message as long as a name can be.
+//! Nasty names in every message: of files, of their contents, of arguments.
+//!
+//! No message contains a terminal escape, a changed direction of text, a line break or a command to
+//! a CI runner. None is as long as a name can be.
 
 use crate::common::npz::{Entry, archive, array};
 use crate::common::{Said, check, pliant};
@@ -8,17 +10,17 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// All at once: a colour, a line that is a command, one of the older kind, the reading direction, a separator of lines, a control of eight
-/// bits.
+/// A nasty name: a colour, a line that is a command, an older such line, the reading direction, a
+/// line separator, an eight-bit control.
 const NASTY: &str = "\u{1b}[31m\n::error::x\n##[error]\u{202e}\u{2028}\u{9b}";
 
-/// What it begins with, shown.
+/// Its beginning, as shown.
 const SHOWN: &str = r"\u{1b}[31m\n::error::x\n##\u{5b}error]\u{202e}\u{2028}\u{9b}";
 
 const FLAT: &str = "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n";
 const UPRIGHT: &str = "v 1 1 -1\nv 1 1 1\nv 1 2 1\nf 1 2 3\n";
 
-/// Fails if what was said does anything but stand there in lines.
+/// Fails if the output has any effect beyond plain lines.
 fn assert_harmless(said: &Said, what: &dyn std::fmt::Debug) {
     assert!(said.err.lines().count() <= 1, "{what:?}: {:?}", said.err);
     for text in [&said.out, &said.err] {
@@ -42,7 +44,8 @@ fn assert_harmless(said: &Said, what: &dyn std::fmt::Debug) {
     }
 }
 
-/// Two triangles that cross, each a node, moved by a clip; everything in the file that can have a name has this one.
+/// Two crossing triangles, each a node moved by a clip. Everything that can have a name has this
+/// one.
 fn scene(name: &str) -> Value {
     let corners = [
         [0., 0., 0., 4., 0., 0., 0., 4., 0.],
@@ -54,8 +57,16 @@ fn scene(name: &str) -> Value {
         .flat_map(|x: &f32| x.to_le_bytes())
         .collect();
     let data = base64(&bytes);
-    let rows = |view: u32, count: u32, shape: &str| json!({"bufferView": view, "componentType": 5126, "count": count, "type": shape});
-    let mesh = |positions: u32| json!({"name": name, "primitives": [{"attributes": {"POSITION": positions}}]});
+    let rows = |view: u32, count: u32, shape: &str| {
+        json!({
+            "bufferView": view, "componentType": 5126, "count": count, "type": shape
+        })
+    };
+    let mesh = |positions: u32| {
+        json!({
+            "name": name, "primitives": [{"attributes": {"POSITION": positions}}]
+        })
+    };
     let meshes = [0, 1].map(mesh);
     json!({
         "asset": {"version": "2.0"},
@@ -86,7 +97,7 @@ fn base64(bytes: &[u8]) -> String {
     BASE64_STANDARD.encode(bytes)
 }
 
-/// Files that have a nasty name, or names in them.
+/// Files with nasty names, or with nasty names in them.
 fn folder(name: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
@@ -143,7 +154,9 @@ fn folder(name: &str) -> TempDir {
     folder
 }
 
-/// What is said of names in files, and of names that are asked for: each line, once as it is and once for each format of answers.
+/// Output of every line of arguments with this name, in files and as a request.
+///
+/// Each line runs as it is, and once for each output format.
 fn asked(path: &Path, name: &str) -> Vec<Said> {
     let part = format!("scene.gltf#{name}");
     let in_groups = format!("groups.obj#{}", name.replace('\n', "\u{b}"));
@@ -244,7 +257,7 @@ fn asked(path: &Path, name: &str) -> Vec<Said> {
 fn no_message_obeys_a_name() {
     let folder = folder(NASTY);
     let said = asked(folder.path(), NASTY);
-    // Every message was about the name, but for those that had no room for it.
+    // Every message is about the name, except messages without room for it.
     let about = said
         .iter()
         .filter(|said| said.out.contains(r"\u{1b}") || said.err.contains(r"\u{1b}"));
@@ -259,7 +272,7 @@ fn no_message_obeys_a_name() {
 
 #[test]
 fn no_message_is_as_long_as_a_name() {
-    // Twice in an argument is as long as one may be.
+    // Twice in an argument, that is the longest that an argument may be.
     let long = "n".repeat(60_000);
     for said in asked(folder(&long).path(), &long) {
         assert!(
@@ -273,7 +286,7 @@ fn no_message_is_as_long_as_a_name() {
     }
 }
 
-/// A folder of files whose names begin so, and in it a folder that is called so, with the same files.
+/// A folder of files with this prefix, and a folder of this name with the same files.
 #[cfg(unix)]
 fn files_called(name: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
@@ -298,10 +311,10 @@ fn files_called(name: &str) -> TempDir {
     folder
 }
 
-/// Each word of the lines with a name in place of `@`; files cannot be called so everywhere.
+/// Lines of arguments with a name in place of `@`. Not every system allows such files.
 #[cfg(unix)]
 const LINES: &[&str] = &[
-    // What the shell made of a pattern, frames that differ, a column of files.
+    // An expanded pattern, frames that differ, a column of files.
     "check @1.obj @2.obj",
     "check @1.obj @2.obj --count --ignore 0,0",
     "check @1.obj @2.obj --hits @hits.vtp",
@@ -310,7 +323,7 @@ const LINES: &[&str] = &[
     "check */[1f]*.obj",
     "check @1.obj#a",
     "check @1.obj+@empty.pc2",
-    // A conversion that rounds, and says so; files that are there; lines that begin with the name.
+    // A conversion that rounds, and says so; existing files; lines that begin with the name.
     "convert plain.obj @new.stl",
     "convert plain.obj @new.stl",
     "convert plain.obj @new.npz",
@@ -386,7 +399,7 @@ fn no_message_obeys_the_name_of_a_file() {
     );
 }
 
-/// JSON has escapes of its own: who reads it gets what is in the file.
+/// JSON has escapes of its own: its readers get the true name.
 #[test]
 fn json_has_the_true_names() {
     let folder = folder(NASTY);

@@ -1,4 +1,4 @@
-//! Files that a command writes beside what it prints: nobody's work is lost by a name, and what is there is whole.
+//! Output files of commands: no name loses anybody's work, and every file is whole.
 
 use crate::common::{check, folder, pliant};
 use std::fmt::Write;
@@ -8,7 +8,8 @@ use std::path::Path;
 const MESH: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 -1\nv 0.3 0.2 1\nv 0.2 0.3 1\nf 1 2 3\nf 4 5 6\n";
 
-/// Every way to write a file, as a command that ends in the name of one; and the names of what it writes beside.
+/// Every way to write a file: a command that ends in a file name, and the names of all files
+/// written.
 const WAYS: [(&[&str], &[&str]); 7] = [
     (&["check", "a.obj", "--report", "out.html"], &["out.html"]),
     (&["check", "a.obj", "--png", "out.png"], &["out.png"]),
@@ -36,7 +37,7 @@ fn meshes() -> tempfile::TempDir {
     folder(&["a.obj", "a_0.obj", "a_1.obj"].map(|name| (name, MESH.to_owned())))
 }
 
-/// The names in a folder, but for the meshes.
+/// Names in a folder, except the meshes.
 fn left(folder: &Path) -> Vec<String> {
     let names = fs::read_dir(folder).unwrap();
     let names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
@@ -61,7 +62,7 @@ fn what_pliant_did_not_write_stays_unless_it_is_forced() {
             let forced = pliant(path, &[command, &["--force"]].concat());
             assert!(forced.code < 2, "{}", forced.err);
             assert_ne!(fs::read(path.join(name)).unwrap(), mine.as_bytes());
-            // Its own it writes over without being asked twice.
+            // A file of its own is overwritten without being asked twice.
             let again = pliant(path, command);
             assert!(again.code < 2, "{command:?}: {}", again.err);
             let mut expected: Vec<_> = names.to_vec();
@@ -87,7 +88,7 @@ fn charts_are_not_written_over_what_is_there() {
     assert_eq!(fs::read(&chart).unwrap(), b"mine");
 }
 
-/// A link is replaced, never what it leads to: the mesh that is checked, above all.
+/// A link is replaced, never its target: the mesh that is checked, above all.
 #[cfg(unix)]
 #[test]
 fn links_are_replaced_and_never_followed() {
@@ -110,7 +111,7 @@ fn links_are_replaced_and_never_followed() {
             assert!(now.is_file(), "{command:?}");
             assert_ne!(fs::read(path.join(name)).unwrap(), MESH.as_bytes());
         }
-        // A link to nowhere bears no mark.
+        // A dangling link bears no mark.
         let folder = meshes();
         let path = folder.path();
         symlink(path.join("nowhere"), path.join(name)).unwrap();
@@ -119,7 +120,7 @@ fn links_are_replaced_and_never_followed() {
     }
 }
 
-/// A pipe that nobody reads would be waited for; a folder is no file.
+/// Pipes, which would be waited for if nobody reads, and folders are refused.
 #[cfg(unix)]
 #[test]
 fn pipes_devices_and_folders_are_refused_at_once() {
@@ -152,8 +153,9 @@ fn pipes_devices_and_folders_are_refused_at_once() {
     }
 }
 
-/// What the program says where no more than 8 KB may be written to a file, as on a full disk, whether the signal of that is ignored or not;
-/// `None` without a shell that limits that.
+/// Output of the program where at most 8 KB may be written to a file, as on a full disk.
+///
+/// The signal of that limit may be ignored or not. `None` without a shell that sets the limit.
 #[cfg(target_os = "linux")]
 fn on_a_full_disk(folder: &Path, command: &[&str]) -> Option<crate::common::Said> {
     let [said, ignored] = ["", "trap '' XFSZ; "].map(|trap| {
@@ -183,7 +185,7 @@ fn on_a_full_disk(folder: &Path, command: &[&str]) -> Option<crate::common::Said
     Some(said)
 }
 
-/// What was there stays, and nothing else is left.
+/// The earlier file stays, and nothing else is left.
 #[cfg(target_os = "linux")]
 #[test]
 fn on_a_full_disk_the_old_file_stays_whole() {
@@ -200,7 +202,7 @@ fn on_a_full_disk_the_old_file_stays_whole() {
     assert_eq!(left(path), ["out.html"]);
 }
 
-/// In every format, archives among them, which write once more when they are dropped.
+/// A full disk, in every format. Archives write once more when they are dropped.
 #[cfg(target_os = "linux")]
 #[test]
 fn converting_onto_a_full_disk_is_one_line() {
@@ -226,7 +228,7 @@ fn converting_onto_a_full_disk_is_one_line() {
     }
 }
 
-/// A program that will be writing for many seconds, and writes.
+/// A program that is busy writing, for many seconds.
 #[cfg(unix)]
 fn writing(path: &Path, before: &str) -> std::process::Child {
     use std::process::{Command, Stdio};
@@ -243,7 +245,7 @@ fn writing(path: &Path, before: &str) -> std::process::Child {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    // So long only if it hangs.
+    // Reached only if it hangs.
     let until = Instant::now() + Duration::from_secs(600);
     while !left(path).iter().any(|name| name.starts_with(".pliant-")) {
         assert!(Instant::now() < until, "it never began to write");
@@ -252,7 +254,8 @@ fn writing(path: &Path, before: &str) -> std::process::Child {
     program
 }
 
-/// Whether a program that is begun here ignores a signal from the beginning; but Ctrl-C, which this one heeds.
+/// Whether a program started here ignores a signal from the beginning, except Ctrl-C, which this
+/// one heeds.
 #[cfg(unix)]
 fn is_ignored_here(signal: i32) -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -272,8 +275,10 @@ fn send(signal: &str, program: &std::process::Child) {
     assert!(sent.unwrap().success());
 }
 
-/// Ctrl-C, a terminal that is closed, or a program that asks it to end: what was there stays, no half of a file is left, and the caller
-/// learns of the signal.
+/// Signals that end the program leave the earlier file and no partial one, and the caller learns of
+/// them.
+///
+/// Ctrl-C, a closed terminal, or a request to end.
 #[cfg(unix)]
 #[test]
 fn a_signal_leaves_nothing_behind() {
@@ -282,7 +287,7 @@ fn a_signal_leaves_nothing_behind() {
 
     let folder = meshes();
     let path = folder.path();
-    // Ten million frames of six vertices in a file of holes: many seconds of writing.
+    // Ten million frames of six vertices in a sparse file: many seconds of writing.
     let frames = 10_000_000_u32;
     let mut header = b"POINTCACHE2\0".to_vec();
     header.extend(
@@ -309,7 +314,7 @@ fn a_signal_leaves_nothing_behind() {
             eprintln!("skipped: whoever runs this test has it ignore SIG{signal}");
             continue;
         }
-        // Of those that leave an image of the memory, no image.
+        // No core dump, for the signals that cause one.
         let mut program = writing(path, "ulimit -c 0; ");
         send(signal, &program);
         let status = program.wait().unwrap();
@@ -317,7 +322,7 @@ fn a_signal_leaves_nothing_behind() {
         assert_eq!(left(path), ["out.npz"], "{signal}");
         assert_eq!(fs::read(path.join("out.npz")).unwrap(), b"mine");
     }
-    // What whoever started it has it ignore does not end it: the one that comes behind does.
+    // A signal that the caller has it ignore does not end it; the next one does.
     if cfg!(target_os = "linux") {
         for ignored in ["HUP", "QUIT", "USR1"] {
             let mut program = writing(path, &format!("trap '' {ignored}; "));

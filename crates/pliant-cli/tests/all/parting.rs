@@ -1,4 +1,6 @@
-//! Seams that part in a later frame: each frame is what a check of it alone finds, in every format, and one line says which parted.
+//! Seams that part in a later frame, in every format.
+//!
+//! Each frame has the result of a check of it alone, and one line says which seams part.
 
 use crate::common::{Said, check, folder, pliant};
 use serde_json::Value;
@@ -7,8 +9,10 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// Two strips of four squares side by side, with corners of their own along x = 1. In the second frame one side of that seam has
-/// moved by so much, at every other corner to the other side; with a fin whose tip goes through the second strip in the last frame.
+/// Two strips of four squares side by side, with corners of their own along x = 1.
+///
+/// In the second frame one side of that seam has moved by `by`, at every other corner to the other
+/// side. In the last frame the tip of a fin goes through the second strip.
 fn strips(frame: usize, by: f32) -> String {
     let mut text = String::new();
     for (first, last, moves) in [(0.0_f32, 1.0_f32, false), (1.0, 2.0, true)] {
@@ -39,7 +43,7 @@ fn sequence(by: f32) -> TempDir {
     folder(&files)
 }
 
-/// One rounding, and much more.
+/// Movement by one rounding, and by much more.
 const DISTANCES: [f32; 2] = [1.2e-7, 0.125];
 
 fn counts_of(folder: &Path, arguments: &[&str]) -> Vec<u64> {
@@ -53,7 +57,7 @@ fn each_frame_is_what_it_is_alone_in_every_format() {
     for by in DISTANCES {
         let folder = sequence(by);
         let path = folder.path();
-        // The same in every format that can be written, each corner of its own in the file.
+        // Equal in every format that can be written, each corner separate in the file.
         for to in [
             "s.npz",
             "c_%d.ply",
@@ -80,7 +84,7 @@ fn each_frame_is_what_it_is_alone_in_every_format() {
             if let Some(expected) = expected {
                 assert_eq!(alone, expected);
             }
-            // The fin goes through one triangle; where the seam is open its sides cross.
+            // The fin goes through one triangle. Where the seam is open, its sides cross.
             assert_eq!(alone[1] > 0, by > 0.1 || weld.is_empty(), "{alone:?}");
             for name in [
                 "s_*.obj",
@@ -96,7 +100,7 @@ fn each_frame_is_what_it_is_alone_in_every_format() {
     }
 }
 
-/// The one line that is said of seams that part.
+/// The only line about seams that part.
 fn note(said: &Said) -> &str {
     let lines: Vec<&str> = said.err.trim_end().lines().collect();
     assert_eq!(lines.len(), 1, "{}", said.err);
@@ -118,12 +122,12 @@ fn one_line_says_how_many_where_and_when() {
         let is_said = said.err.lines().any(|line| line.contains(words));
         assert!(is_said, "{words}: {}", said.err);
     }
-    // As asked, it stays together.
+    // With the tolerance it stays together.
     let said = check(folder.path(), &["s_*.obj", "--count", "--weld", "1e-6"]);
     assert_eq!((said.code, said.err.as_str()), (1, ""));
     let said = check(folder.path(), &["s_*.obj", "--quiet"]);
     assert_eq!((said.code, said.err.as_str()), (1, ""));
-    // Beyond the tolerance that was asked for another advice is none.
+    // Beyond the given tolerance there is no other advice.
     let folder = sequence(0.125);
     let said = check(folder.path(), &["s_*.obj", "--count", "--weld", "1e-6"]);
     assert!(
@@ -136,7 +140,7 @@ fn one_line_says_how_many_where_and_when() {
     assert!(!said.err.contains("seams join"), "{}", said.err);
 }
 
-/// The two closed cubes of `stack_*.stl`, which touch along a face in the first frame and then go apart.
+/// Files `stack_*.stl`: two closed cubes that touch along a face in the first frame, then part.
 fn stacks(offsets: &[f32]) -> TempDir {
     let corners = |z: f32| -> Vec<[f32; 3]> {
         let bit = |number: u8, bit: u8| f32::from(number >> bit & 1);
@@ -185,16 +189,17 @@ fn solids_that_touch_may_go_apart() {
     let folder = stacks(&[0.0, 0.5, 1.0]);
     let said = check(folder.path(), &["stack_*.stl"]);
     assert_eq!(said.code, 0, "{}", said.err);
-    let words = "4 vertices that seams join in the first frame are apart in frame 2, as some are in 2 frames, 1 to 2: ";
+    let words = "4 vertices that seams join in the first frame are apart in frame 2, as some are \
+                 in 2 frames, 1 to 2: ";
     assert!(note(&said).contains(words), "{}", said.err);
-    // Pieces and groups are those of the first frame, and no reason to stop.
+    // Pieces and groups of the first frame stay, and are no reason to stop.
     for (split, bodies) in [("components", 1), ("groups", 2)] {
         let arguments = ["stack_*.stl", "--split", split, "--format", "json"];
         let said = check(folder.path(), &arguments);
         assert_eq!((said.code, said.counts()), (0, vec![0; 3]), "{}", said.err);
         assert_eq!(said.json()["bodies"].as_array().unwrap().len(), bodies);
     }
-    // The other way round: what touches as one solid alone is one.
+    // The other way round: cubes that touch are one solid alone.
     let folder = stacks(&[1.0, 0.5, 0.0]);
     let alone = check(folder.path(), &["stack_2.stl"]);
     let said = check(folder.path(), &["stack_*.stl"]);
@@ -212,7 +217,7 @@ fn intervals(said: &Said) -> Vec<Value> {
 
 #[test]
 fn no_way_between_two_frames_is_skipped() {
-    // Apart, and then through each other: the side of the upper cube is not held where it was joined.
+    // Apart, then through each other: the side of the upper cube is not held where it was joined.
     let folder = stacks(&[0.0, 0.5, -0.5, -0.5]);
     let arguments = ["stack_*.stl", "--swept", "--format", "json"];
     let said = check(folder.path(), &arguments);
@@ -242,7 +247,8 @@ fn no_way_between_two_frames_is_skipped() {
             let said = check(folder.path(), &[&arguments[..], split].concat());
             let ways = intervals(&said);
             assert!(ways.iter().all(|way| way.get("changed").is_none()));
-            // The tip of the fin meets the strip half way; a seam that rounding parts is closed throughout.
+            // The tip of the fin meets the strip half way. A seam that rounding parts is closed
+            // throughout.
             let meets = by < 0.1 && split.is_empty();
             if meets {
                 assert_eq!([&ways[0]["count"], &ways[0]["at_start"]], [0, 0]);

@@ -1,4 +1,4 @@
-//! The program as people meet it: quiet when asked, plain where there is no terminal, helpful when it is used wrongly.
+//! The program as people meet it: quiet when asked, plain outside terminals, helpful about errors.
 
 use crate::common::{Said, pliant};
 use serde_json::json;
@@ -21,7 +21,7 @@ fn in_folder(arguments: &[&str]) -> Said {
     let groups = "v 0 0 0\nv 1 0 0\nv 0 1 0\no arm\nf 1 2 3\ng hand\nf 1 2 3\no leg\nf 1 2 3\n";
     fs::write(folder.path().join("groups.obj"), groups).unwrap();
     fs::write(folder.path().join("empty.obj"), "").unwrap();
-    // Two triangles whose edges coincide in the first frame, and not in the second.
+    // Two triangles whose edges coincide in the first frame, and part in the second.
     for (name, x) in [("seam_1.obj", 0), ("seam_2.obj", 1)] {
         let text =
             format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv {x} 0 0\nv 0 -1 0\nf 1 2 3\nf 4 5 6\n");
@@ -66,8 +66,14 @@ fn in_folder(arguments: &[&str]) -> Said {
             "extensionsRequired": [],
         });
         if name == "moves.gltf" {
-            // One body, for a second: the fourth number of the buffer is 1, and the first six are two places.
-            let number = |offset: u32, kind: &str| json!({"bufferView": 0, "byteOffset": offset, "componentType": 5126, "count": 2, "type": kind});
+            // One body, for one second: the fourth number of the buffer is 1, and the first six are
+            // two places.
+            let number = |offset: u32, kind: &str| {
+                json!({
+                    "bufferView": 0, "byteOffset": offset,
+                    "componentType": 5126, "count": 2, "type": kind
+                })
+            };
             let accessors = scene["accessors"].as_array_mut().unwrap();
             accessors.extend([number(8, "SCALAR"), number(0, "VEC3")]);
             let channel = json!({"sampler": 0, "target": {"node": 0, "path": "translation"}});
@@ -91,13 +97,14 @@ fn positions(vertices: u32) -> Vec<u8> {
     file
 }
 
-/// Each line is refused, and what is said has the words beside it.
+/// Lines of arguments that are refused, and words that the message has.
 fn says_next(lines: &[(&str, &str)]) {
     for (line, next) in lines {
         let said = in_folder(&line.split_whitespace().collect::<Vec<_>>());
+        println!("$ pliant {line}\n{}", said.err);
         assert_eq!(said.code, 2, "{line}: {}", said.out);
         assert!(said.err.contains(next), "{line}: {}", said.err);
-        // Where nothing was asked, help is shown.
+        // Without arguments, the help is shown.
         let is_help = line.is_empty();
         assert!(
             is_help || said.err.lines().count() == 1,
@@ -117,7 +124,7 @@ fn every_error_says_what_to_do_next() {
     says_next(&[
         ("", "Usage: pliant <COMMAND>"),
         ("chek a.obj", "similar subcommand exists: 'check'"),
-        ("run sphere", "there are spheres, crowd"),
+        ("run sphere", "shuffle, remesh; choose one of these\n"),
         ("run --steps 500", "leave it out"),
         ("run --stride 300", "choose a smaller one"),
         ("run --triangles 100", "nearest possible numbers"),
@@ -125,7 +132,7 @@ fn every_error_says_what_to_do_next() {
         ("run --update topdown", "'top-down'"),
         (
             "run --level 3 --update top-down",
-            "goes with --update hybrid",
+            "leave it out, or choose --update hybrid",
         ),
         ("run --threads 0", "write a whole number, 1 or more"),
         ("run --leaf-size x", "write a whole number, 1 or more"),
@@ -145,7 +152,8 @@ fn every_error_says_what_to_do_next() {
         ("check a.obj --ignore c,d", "bodies: 0 = \"a.obj\""),
         (
             "check a.obj --ignore a.obj#1,a.obj#2",
-            "choose one of these, or make the pieces of every file bodies with `--split components`",
+            "choose one of these, \
+             or make the pieces of every file bodies with `--split components`",
         ),
         (
             "check a.obj --group x=a.obj#2",
@@ -161,7 +169,8 @@ fn every_error_says_what_to_do_next() {
         ("check a.obj --max-memory 1GB", "write GiB"),
         (
             "check a.obj --max-memory 10",
-            "a frame needs at least 24 bytes of memory, 10 bytes are allowed; allow more with `--max-memory`, or split the mesh\n",
+            "a frame needs at least 24 bytes of memory, 10 bytes are allowed; allow more with \
+             `--max-memory`, or split the mesh\n",
         ),
         (
             "check a.obj --max-memory 100",
@@ -204,7 +213,7 @@ fn every_error_says_what_to_do_next() {
         ("check a.obj --threads 0", "write a whole number, 1 or more"),
         ("check a.obj --hits x.obj", "must end in .vtp or .vtu"),
         ("check a.obj --hits no/x.vtp", "make its folder first"),
-        ("bench experiment-2", "there are experiment-1"),
+        ("bench experiment-2", "all; choose one of these\n"),
         ("bench splits --json no/x.json", "make its folder first"),
         ("bench splits --json .", "name a file in it"),
         ("completions ksh", "[possible values: bash"),
@@ -233,7 +242,8 @@ fn every_error_about_groups_says_what_to_do_next() {
         ),
         (
             "check groups.obj#arm groups.obj#arm/hand",
-            "groups.obj: \"arm/hand\" is named twice, as \"arm\" and as \"arm/hand\"; name it once\n",
+            "groups.obj: \"arm/hand\" is named twice, as \"arm\" and as \"arm/hand\"; name it \
+             once\n",
         ),
         ("check s_*.obj#b", "leave out what begins with the #"),
         ("check no.obj#b", "from the current folder"),
@@ -294,7 +304,8 @@ fn every_error_of_a_format_or_a_conversion_says_what_to_do_next() {
         ),
         (
             "check moves.gltf+three.pc2",
-            "has 31 frames; the mesh beside positions must have one; write it to a file with `pliant convert --frames 0`\n",
+            "has 31 frames; the mesh beside positions must have one; write it to a file with \
+             `pliant convert --frames 0`\n",
         ),
         ("check still.gltf --fps 0", "write a number above 0"),
         ("check still.gltf --fps -1", "write a number above 0"),
@@ -305,13 +316,14 @@ fn every_error_of_a_format_or_a_conversion_says_what_to_do_next() {
         ),
         (
             "convert still.gltf#arm a.obj",
-            "a.obj: exists already; use `--force` to write over it\n",
+            "a.obj: exists already; choose another name, or use `--force` to write over it\n",
         ),
         ("convert still.gltf#arm no/x.obj", "make it first"),
         ("convert still.gltf#arm x.glb", "these can: a mesh (.obj"),
         (
             "convert s_*.obj x.obj",
-            "this format holds one frame a file, but 3 are to be written; name a file a frame ('name_%04d.obj'), or choose one with `--frames`\n",
+            "this format holds one frame a file, but 3 are to be written; name a file a frame \
+             ('name_%04d.obj'), or choose one with `--frames`\n",
         ),
         (
             "convert s_*.obj x.obj --frames 9",

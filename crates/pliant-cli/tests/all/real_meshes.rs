@@ -1,11 +1,12 @@
-//! Real meshes with exact counts: closed triangles that share no vertex, counted in rational arithmetic. The files are not
-//! part of the project; where they are absent, these tests skip and say so.
+//! Real meshes with exact counts: closed triangles without a common vertex, counted in rationals.
+//!
+//! The files are not part of the project. Where they are absent, these tests skip and say so.
 
 use crate::common::{Said, pliant};
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-/// Checks files below the data folder, if it is there.
+/// Checks files below the data folder, if it exists.
 fn check(arguments: &[&str]) -> Option<Said> {
     let data = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
     if !data.is_dir() {
@@ -44,7 +45,8 @@ fn cloth_funnel() {
 
 #[test]
 fn armadillo_rollers_touch_in_no_triangle() {
-    // Plain f64 arithmetic without exact signs says 444 in 327: many triangles are exactly coplanar.
+    // In plain f64, without exact signs, there would be 444 in 327: many triangles are exactly
+    // coplanar.
     assert_count("armadillo-rollers/326.ply", 0);
     assert_count("armadillo-rollers/327.ply", 0);
 }

@@ -1,13 +1,13 @@
-//! Two runs of one command say the same bytes, but for what a clock measured.
+//! Two runs of one command print the same bytes, except times.
 
 use crate::common::{Said, pliant};
 use std::fs;
 use std::path::Path;
 
-/// The members that are times, lists of one number a step.
+/// JSON members that are times, as lists of one number a step.
 const TIMES: [&str; 2] = ["\"update_ms\":", "\"query_ms\":"];
 
-/// The text with the lists of times, which must be there, emptied.
+/// The text with its lists of times emptied; they must be there.
 fn without_times(text: &str) -> String {
     let mut text = text.to_owned();
     for name in TIMES {
@@ -25,7 +25,7 @@ fn without_times(text: &str) -> String {
     text
 }
 
-/// Runs a command twice; fails unless both say the same, and something.
+/// Runs a command twice. Fails unless both runs print the same, and something.
 fn twice(folder: &Path, arguments: &[&str], keep: impl Fn(&str) -> String) -> String {
     let [one, two]: [Said; 2] = [(); 2].map(|()| pliant(folder, arguments));
     assert_eq!((one.code, &one.err), (two.code, &two.err), "{arguments:?}");

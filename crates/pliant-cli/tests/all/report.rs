@@ -1,4 +1,4 @@
-//! Pages and pictures of the program, from end to end. What a browser makes of a page is tested in `web/`.
+//! End-to-end tests of pages and pictures. Tests in `web/` show pages in a browser.
 
 use crate::common::{Said, pliant};
 use serde_json::{Value, json};
@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-/// Two triangles that meet from frame 1 to frame 2, of four; the second moves.
+/// Two triangles that meet in the frames 1 and 2, of four; the second moves.
 fn sequence(folder: &Path) {
     fs::write(
         folder.join("still.obj"),
@@ -26,7 +26,7 @@ fn check(folder: &Path, arguments: &[&str]) -> Said {
     )
 }
 
-/// What the page says, as its viewer reads it.
+/// Data of a page, as its viewer reads it.
 fn head(folder: &Path, page: &str) -> Value {
     let page = fs::read_to_string(folder.join(page)).unwrap();
     let start = page.find(r#"id="report">"#).unwrap() + r#"id="report">"#.len();
@@ -114,7 +114,7 @@ fn what_cannot_be_is_said_before_anything_is_done() {
         "60",
     ];
     pliant(folder, &run).assert_refused(&["--frame 60", "step", "the first is 50, the last 200"]);
-    // A page that is there is not lost to a check that cannot begin.
+    // An existing page is not lost to a check that cannot begin.
     fs::write(folder.join("old.html"), "kept").unwrap();
     check(
         folder,
@@ -126,7 +126,7 @@ fn what_cannot_be_is_said_before_anything_is_done() {
     check(folder, &["--png", "a.png"])
         .assert_refused(&["say which with --frame", "the first is 0, the last 3"]);
     assert!(!folder.join("a.png").exists());
-    // Of a mesh that does not move there is no choice.
+    // A mesh that does not move leaves no choice of frame.
     let said = pliant(folder, &["check", "still.obj", "--png", "a.png"]);
     assert!(said.code < 2, "{}", said.err);
     assert!(folder.join("a.png").exists());
@@ -136,7 +136,8 @@ fn what_cannot_be_is_said_before_anything_is_done() {
 fn a_picture_keeps_the_pairs_of_its_frame_alone() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    // Forty triangles that stand, all across forty that lie there in frame 1: a list of 1,600 pairs takes 25,600 bytes.
+    // Forty upright triangles cross forty flat ones in frame 1: a list of 1,600 pairs takes 25,600
+    // bytes.
     let (mut still, mut away, mut across) = (String::new(), String::new(), String::new());
     for i in 0..40 {
         let z = f64::from(i) / 50.0;
@@ -188,7 +189,7 @@ fn a_check_that_ends_early_has_a_page_that_says_so() {
     );
 }
 
-/// The page of the first experiment: 2 x 20,480 triangles, 200 steps.
+/// Page of the first experiment: 2 x 20,480 triangles, 200 steps.
 #[test]
 fn the_default_scene_fits_into_thirty_megabytes_and_no_step_is_left_out() {
     let folder = tempfile::tempdir().unwrap();
@@ -208,7 +209,7 @@ fn the_default_scene_fits_into_thirty_megabytes_and_no_step_is_left_out() {
         (&motion["pairs"], &motion["numbers"]),
         (&json["pairs"], &json["step"])
     );
-    // The times are those of the JSON, step by step.
+    // Times equal the JSON's, step by step.
     let chart = &head["plays"][0]["charts"][0];
     assert_eq!(
         (&chart["lines"][1]["values"], &chart["lines"][2]["values"]),
@@ -260,7 +261,8 @@ fn a_first_pair_and_a_body_with_itself_are_shown_too() {
 fn experiments_have_a_page_and_charts() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    // All pairs and the first pair of one motion: one picture for both. Without peers no experiment has that.
+    // All pairs and the first pair of one motion share a picture. Without peers, no experiment has
+    // both.
     let (experiment, motions, chart) = if cfg!(feature = "peers") {
         let chart = "experiment-1-figure-3a-all-pairs-both.svg";
         ("experiment-1", [0, 0, 1], chart)
@@ -316,7 +318,7 @@ fn pages_and_pictures_have_what_is_left_of_the_pairs() {
         .display()
         .to_string();
     let looked_at = |arguments: &[&str]| {
-        // One in which what intersects can be seen.
+        // A frame in which intersections can be seen.
         let frame = if arguments[0] == scene { "11" } else { "1" };
         let pictures = ["--report", "a.html", "--png", "a.png", "--frame", frame];
         let said = pliant(folder, &[&["check"], arguments, &pictures].concat());
@@ -363,7 +365,7 @@ fn pages_and_pictures_have_what_is_left_of_the_pairs() {
         );
         // Pieces have the same red triangles; what is left out is not red.
         assert_eq!(picture != of_plain.2, differs, "{json:?}");
-        // All but what pieces are called is as without.
+        // Apart from the names of pieces, the page is as without `--split`.
         let unsplit = |page: &Value| {
             let mut bodies = page["motions"][0]["bodies"].clone();
             for body in bodies.as_array_mut().unwrap() {
@@ -422,7 +424,7 @@ fn pieces_and_groups_are_bodies_of_the_page() {
         groups,
         [(0.into(), json!(["a", "<b"])), (2.into(), none.clone())]
     );
-    // Of the other group there is a part without a name.
+    // The other group is a part without a name.
     let (some, facts) = bodies(&["one.obj", "two.obj#<b"]);
     assert_eq!(some, [(0.into(), none.clone()), (1.into(), json!(["<b"]))]);
     assert!(facts.as_array().unwrap().contains(&json!(["groups", "2"])));
@@ -434,7 +436,7 @@ fn pieces_and_groups_are_bodies_of_the_page() {
 fn all_that_meets_on_the_way_is_on_the_page() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    // A leaf falls through a floor on which it does not lie in any frame, whatever is printed.
+    // A leaf falls through a floor, on which it lies in no frame, whatever is printed.
     fs::write(
         folder.join("floor.obj"),
         "v -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n",
@@ -469,7 +471,7 @@ fn all_that_meets_on_the_way_is_on_the_page() {
         let moment = json!({"until": 1, "count": 3, "contacts": contacts});
         assert_eq!(moments(more), json!([null, moment, null, null]), "{more:?}");
     }
-    // Of the first alone nobody knows how many others there are.
+    // With `--first`, the number of other contacts is unknown.
     let first = json!({"until": 1, "count": null, "contacts": [contacts[0]]});
     assert_eq!(moments(&["--first"]), json!([null, first, null, null]));
 }
@@ -507,7 +509,8 @@ fn of_meshes_that_change_frames_of_all_the_way_are_shown() {
     let widest = places.windows(2).map(|two| two[1] - two[0]).max();
     assert!(widest <= Some(16), "{places:?}");
     let note = format!(
-        "The picture shows {} of 250 steps, to keep the page small; the first contact, the step with the most pairs and the last are among them. Figures are of all steps.",
+        "The picture shows {} of 250 steps, to keep the page small; the first contact, the step \
+         with the most pairs and the last are among them. Figures are of all steps.",
         places.len()
     );
     assert_eq!(head["plays"][0]["notes"], json!([note]));

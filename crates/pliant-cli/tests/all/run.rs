@@ -1,4 +1,4 @@
-//! `pliant run` from end to end.
+//! End-to-end tests of `pliant run`.
 
 use crate::common::{Said, pliant};
 use serde_json::Value;
@@ -8,7 +8,7 @@ fn run(arguments: &[&str]) -> Said {
     pliant(Path::new("."), &[&["run"], arguments].concat())
 }
 
-/// The object without what a clock measured.
+/// The JSON object without its times.
 fn without_times(said: &Said) -> Value {
     let mut json = said.json();
     let object = json.as_object_mut().unwrap();

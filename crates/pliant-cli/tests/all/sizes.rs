@@ -1,4 +1,4 @@
-//! How large bodies are: said of each, and noted where that may be why nothing was found.
+//! Sizes of bodies: reported for each, and noted where they may be why nothing was found.
 
 use crate::common::{check, folder};
 use serde_json::json;
@@ -7,7 +7,8 @@ use serde_json::json;
 fn tetrahedron(size: f64, at: f64) -> String {
     let far = at + size;
     format!(
-        "v {at} 0 0\nv {far} 0 0\nv {at} {size} 0\nv {at} 0 {size}\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+        "v {at} 0 0\nv {far} 0 0\nv {at} {size} 0\nv {at} 0 {size}\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 \
+         1 4\n"
     )
 }
 
@@ -69,16 +70,17 @@ fn bodies_of_other_units_are_noted_if_nothing_is_found() {
     assert_eq!(said.code, 0, "{}", said.err);
     assert_eq!(
         said.err,
-        "pliant: note: nothing was found, and the longest side of shirt.obj is 1750, that of body.obj 1.75: are they of one unit?\n"
+        "pliant: note: nothing was found, and the longest side of shirt.obj is 1750, that of \
+         body.obj 1.75: are they of one unit?\n"
     );
-    // Not where they meet, nor of sizes that may well be.
+    // No note where bodies meet, nor for plausible sizes.
     for (size, at, code) in [(1750.0, 0.25, 1), (174.9, 10.0, 0), (0.0176, 10.0, 0)] {
         let said = with(size, at);
         assert_eq!((said.code, said.err.as_str()), (code, ""), "{size}");
     }
     let said = with(0.0174, 10.0);
     assert!(said.err.contains("are they of one unit?"), "{}", said.err);
-    // Pieces of one file are of one unit.
+    // Pieces of one file have one unit.
     let both = tetrahedron(1.0, 0.0) + "v 90 0 0\nv 90.001 0 0\nv 90 0.001 0\nf 5 6 7\n";
     let folder = folder(&[("a.obj", both)]);
     let said = check(folder.path(), &["a.obj", "--split", "components"]);

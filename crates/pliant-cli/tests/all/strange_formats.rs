@@ -1,10 +1,11 @@
-//! `pliant check` on glTF, STL, PC2 and MDD files from strangers: one line, exit code 2, soon, in little memory.
+//! Hostile glTF, STL, PC2 and MDD files: refused in one line, with exit code 2, soon, in little
+//! memory.
 
 use crate::common::{Measured, measured};
 use std::fs::{self, File};
 use std::path::Path;
 
-/// More than the program needs for any small file; less than any claim below.
+/// Bytes: more than the program needs for any small file, less than any claim below.
 const LITTLE: u64 = 64 << 20;
 
 fn refused(folder: &Path, name: &str, words: &[&str]) {
@@ -61,8 +62,10 @@ fn claims_that_nothing_stands_behind() {
     refused(path, "none.glb", &["holds no faces"]);
     let text = |accessor: &str| {
         format!(
-            r#"{{"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
-            "accessors":[{accessor}],"bufferViews":[{{"buffer":0,"byteLength":4000000000}}],"buffers":[{{"byteLength":4000000000,"uri":"data:;base64,AAAA"}}]}}"#
+            r#"{{"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
+            "accessors":[{accessor}],"bufferViews":[{{"buffer":0,"byteLength":4000000000}}],
+            "buffers":[{{"byteLength":4000000000,"uri":"data:;base64,AAAA"}}]}}"#
         )
     };
     for (name, accessor, words) in [

@@ -1,5 +1,7 @@
-//! `pliant check` where names lead to pipes, devices, links and holes, or a file is only a name for another: of every format, as a
-//! file, as a part of one, and beside one. One line, exit code 2, soon, in little memory.
+//! Hostile places: names of pipes, devices, links, sparse files, and other names of a file.
+//!
+//! In every format, as a file, as part of one, and beside one. Each is refused in one line, with
+//! exit code 2, soon, in little memory.
 #![cfg(unix)]
 
 use crate::common::npz::Surface;
@@ -11,7 +13,7 @@ use std::os::unix::fs::symlink;
 use std::path::Path;
 use std::process::Command;
 
-/// More than the program needs for any small file; less than any claim below.
+/// Bytes: more than the program needs for any small file, less than any claim below.
 const LITTLE: u64 = 64 << 20;
 
 fn refused(folder: &Path, name: &str, words: &[&str]) {
@@ -27,12 +29,12 @@ fn refused(folder: &Path, name: &str, words: &[&str]) {
 const MESH: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 const FORMATS: [&str; 8] = ["obj", "ply", "stl", "npz", "gltf", "glb", "pc2", "mdd"];
 
-/// The arguments that read a file: positions alone are read beside a mesh; glTF files have parts.
+/// Arguments that read a file. Positions alone are read beside a mesh; glTF files have parts.
 fn arguments(file: &str) -> Vec<String> {
     match file.rsplit_once('.').map(|(_, ending)| ending) {
         Some("pc2" | "mdd") => vec![format!("m.obj+{file}")],
         Some("gltf" | "glb") => vec![file.to_owned(), format!("{file}#body")],
-        // As the mesh beside positions too.
+        // Also as the mesh beside positions.
         _ => vec![file.to_owned(), format!("{file}+m.pc2")],
     }
 }
@@ -95,7 +97,7 @@ fn pipes_devices_and_links_that_lead_nowhere() {
     }
 }
 
-/// A link to a file that is there is that file; so is one that several names have.
+/// A link is the file that it leads to; hard links are read, too.
 #[test]
 fn links_to_files_are_read() {
     let folder = folder();
@@ -120,7 +122,7 @@ fn links_to_files_are_read() {
     }
 }
 
-/// A glTF file, and a buffer of this URI.
+/// A glTF file with a buffer of this URI.
 fn gltf(uri: &str, count: u64, length: u64) -> String {
     json!({
         "scenes": [{"nodes": [0]}],
@@ -150,7 +152,7 @@ fn buffers_that_are_elsewhere_or_no_files() {
     assert!(made.unwrap().success(), "mkfifo makes pipes");
     let read = |uri: &str| {
         fs::write(scene.join("a.gltf"), gltf(uri, 3, 36)).unwrap();
-        // From the folder itself, too, whose name is then empty.
+        // Also from the folder itself, whose name is then empty.
         for (folder, name) in [(path, "scene/a.gltf"), (&scene, "a.gltf")] {
             let said = measured(folder, &["check", name]).said;
             assert_eq!((said.code, said.err.as_str()), (0, ""), "{uri} in {name}");
@@ -177,7 +179,7 @@ fn buffers_that_are_elsewhere_or_no_files() {
     }
 }
 
-/// What takes no place on any disk, and is as long as its header says.
+/// Sparse files, which take no place on any disk, and are as long as their headers say.
 #[test]
 fn holes_that_are_as_long_as_they_say() {
     let folder = folder();
@@ -191,8 +193,9 @@ fn holes_that_are_as_long_as_they_say() {
     let stl = [&[b' '; 80][..], &(many as u32).to_le_bytes()].concat();
     let ply = |vertices: u64, faces: u64| {
         format!(
-            "ply\nformat binary_little_endian 1.0\nelement vertex {vertices}\nproperty float x\nproperty float y\n\
-             property float z\nelement face {faces}\nproperty list uchar int vertex_indices\nend_header\n"
+            "ply\nformat binary_little_endian 1.0\nelement vertex {vertices}\n\
+             property float x\nproperty float y\nproperty float z\n\
+             element face {faces}\nproperty list uchar int vertex_indices\nend_header\n"
         )
         .into_bytes()
     };
@@ -221,7 +224,7 @@ fn holes_that_are_as_long_as_they_say() {
         ("m.obj+a.mdd", "has 2147483648 vertices, m.obj has 3"),
         ("a.gltf", allowed),
         ("a.gltf#body", allowed),
-        // Read as what they are not.
+        // Read as another format.
         ("a.stl+a.pc2", "a.stl"),
         ("a.gltf+a.mdd", "a.gltf"),
     ] {
@@ -229,7 +232,7 @@ fn holes_that_are_as_long_as_they_say() {
     }
 }
 
-/// Of every format whose numbers are bytes; text is in `strangers.rs`.
+/// Every binary format; text is in `strangers.rs`.
 #[test]
 fn numbers_that_are_not_finite() {
     let folder = folder();
@@ -244,7 +247,7 @@ fn numbers_that_are_not_finite() {
         let numbers = frames.as_flattened();
         let little: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
         let big: Vec<u8> = numbers.iter().flat_map(|x| x.to_be_bytes()).collect();
-        // The times of frames are nobody's business, whatever they are.
+        // Times of frames are not read, whatever they are.
         let mdd = [
             &2_u32.to_be_bytes()[..],
             &3_u32.to_be_bytes(),

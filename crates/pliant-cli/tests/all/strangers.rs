@@ -1,4 +1,4 @@
-//! `pliant check` on files from strangers: one line, exit code 2, soon, in little memory.
+//! Hostile files: refused in one line, with exit code 2, soon, in little memory.
 
 use crate::common::npz::{Entry, archive, array};
 use crate::common::{Measured, measured};
@@ -8,10 +8,11 @@ use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// More than the program needs for any small file; less than any claim below.
+/// Bytes: more than the program needs for any small file, less than any claim below.
 const LITTLE: u64 = 64 << 20;
 
-/// Fails unless the file is refused by one line that holds its name and all of `words`, soon and in little memory.
+/// Fails unless the file is refused soon and in little memory, by one line with its name and
+/// `words`.
 fn refused(folder: &Path, name: &str, words: &[&str]) {
     refused_with(folder, &[name], &[&[name], words].concat());
 }
@@ -31,13 +32,14 @@ const OBJ: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n";
 fn ply(encoding: &str, counts: [&str; 2], data: &[u8]) -> Vec<u8> {
     let [vertices, faces] = counts;
     let header = format!(
-        "ply\nformat {encoding} 1.0\nelement vertex {vertices}\nproperty float x\nproperty float y\nproperty float z\n\
+        "ply\nformat {encoding} 1.0\nelement vertex {vertices}\n\
+         property float x\nproperty float y\nproperty float z\n\
          element face {faces}\nproperty list uint int vertex_indices\nend_header\n"
     );
     [header.as_bytes(), data].concat()
 }
 
-/// Three corners and a triangle with these numbers.
+/// Three corners, and a triangle with these numbers.
 fn binary(corners: [[f32; 3]; 3], triangle: [i32; 3]) -> Vec<u8> {
     let mut data: Vec<u8> = corners
         .as_flattened()
@@ -77,14 +79,15 @@ fn cut_short_at_any_place() {
         fs::write(path.join(name), whole).unwrap();
         let said = measured(path, &["check", name]).said;
         assert_eq!((said.code, said.err.as_str()), (0, ""), "{name}");
-        // Not the line break at the end of the text.
+        // Without the line break at the end of the text.
         for end in (0..whole.len() - 1).step_by(whole.len() / 12) {
             let cut = format!("cut{end}_{name}");
             fs::write(path.join(&cut), &whole[..end]).unwrap();
             refused(path, &cut, &[]);
         }
     }
-    // An OBJ file announces nothing; what is cut inside a word or before its first face is found, and what has two corners is noted.
+    // An OBJ file announces no sizes. A cut inside a word or before the first face is found; faces
+    // of two corners are noted.
     fs::write(path.join("cut.obj"), &OBJ[..OBJ.len() - 2]).unwrap();
     let said = measured(path, &["check", "cut.obj"]).said;
     assert!(said.code == 0 && said.err.contains("have two corners"));
@@ -179,8 +182,9 @@ fn counts_that_nothing_stands_behind() {
     .unwrap();
     refused(path, "m.ply", &["face 0", "ends too early"]);
     // Elements without data, as often as there are numbers.
-    let nothing = "ply\nformat ascii 1.0\nelement nothing 18446744073709551615\nelement vertex 0\nproperty float x\n\
-        property float y\nproperty float z\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n";
+    let nothing = "ply\nformat ascii 1.0\nelement nothing 18446744073709551615\n\
+        element vertex 0\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 0\nproperty list uchar int vertex_indices\nend_header\n";
     fs::write(path.join("n.ply"), nothing).unwrap();
     refused(path, "n.ply", &["holds no vertices"]);
 }
@@ -293,12 +297,13 @@ fn nothing_directories_pipes_and_devices() {
     }
 }
 
-/// A megabyte of zeros, deflated so that it can be said again and again.
+/// A megabyte of zeros, deflated, in a form that can be repeated.
 const ZEROS: usize = 1 << 20;
 
 fn deflated_zeros(times: usize) -> Vec<u8> {
-    // One literal, then matches of 258 at distance 1, in a block of fixed codes; then an empty stored block, which ends at a
-    // byte.
+    // One literal, then matches of 258 at distance 1, in a block of fixed codes.
+    //
+    // Then an empty stored block, which ends at a byte.
     let (mut bits, mut stream) = (Vec::new(), Vec::new());
     let mut put =
         |code: u32, length: u32| bits.extend((0..length).rev().map(|bit| code >> bit & 1));
@@ -328,7 +333,7 @@ fn deflated_zeros(times: usize) -> Vec<u8> {
     stream.repeat(times)
 }
 
-/// The header of an array stored, its data deflated.
+/// An array with a stored header and deflated data.
 fn bomb(name: &'static str, dtype: &str, shape: &str, megabytes: usize) -> Entry {
     let header = array(dtype, shape, &[]);
     let [low, high] = (header.len() as u16).to_le_bytes();
@@ -351,7 +356,7 @@ fn bombs() {
     let path = folder.path();
     let faces = || Entry::stored("faces", array("<i4", "(1, 3)", &[0; 12]));
     let vertices = || Entry::stored("vertices", array("<f4", "(1, 3, 3)", &[0; 36]));
-    // 3,840 MiB in one frame, in 25: within the limit, but not with its seams.
+    // A frame of 3,840 MiB in 25 MiB: within the limit, but not with its seams.
     let frame = archive(&[bomb("vertices", "<f4", "(1, 335544320, 3)", 3840), faces()]);
     assert!(frame.len() < 26 << 20);
     fs::write(path.join("frame.npz"), &frame).unwrap();
@@ -371,25 +376,25 @@ fn bombs() {
         &["frame.npz", "--no-weld", "--max-memory", "3G"],
         &["frame.npz", "3.8 GiB", "3 GiB are allowed", "--max-memory"],
     );
-    // As many faces.
+    // Equally many faces.
     let many = archive(&[vertices(), bomb("faces", "<i4", "(335544320, 3)", 3840)]);
     fs::write(path.join("faces.npz"), &many).unwrap();
     refused(path, "faces.npz", &["11.3 GiB", "4 GiB are allowed"]);
-    // Frames without end are streamed: each is small, and only the checksum, at the end, is wrong.
+    // Endless frames are streamed: each is small, and only the checksum, at the end, is wrong.
     let frames = archive(&[bomb("vertices", "<f4", "(144, 174762, 3)", 288), faces()]);
     fs::write(path.join("frames.npz"), &frames).unwrap();
     refused(path, "frames.npz", &["the shape needs"]);
     let frames = archive(&[bomb("vertices", "<f4", "(48, 131072, 3)", 72), faces()]);
     fs::write(path.join("frames.npz"), &frames).unwrap();
     refused(path, "frames.npz", &["does not match its checksum"]);
-    // More behind what is announced is not unpacked.
+    // Data beyond the announced length is not unpacked.
     let mut hidden = bomb("vertices", "<f4", "(1, 3, 3)", 3840);
     hidden.size = (array("<f4", "(1, 3, 3)", &[]).len() + 36) as u32;
     fs::write(path.join("hidden.npz"), archive(&[hidden, faces()])).unwrap();
     refused(path, "hidden.npz", &["does not match its checksum"]);
 }
 
-/// Found with `zip` 9.4.1, which made room for as many records as the end of a directory claims.
+/// A find with `zip` 9.4.1, which reserved room for all records that the end of a directory claims.
 #[test]
 fn a_hole_of_eight_gibibytes_with_a_directory_that_claims_to_fill_it() {
     let folder = tempfile::tempdir().unwrap();
@@ -449,7 +454,7 @@ fn a_hole_of_eight_gibibytes_with_a_directory_that_claims_to_fill_it() {
     }
 }
 
-/// A frame in which every one of `count` triangles crosses every one of `count` others.
+/// A frame in which each of `count` triangles crosses each of `count` others.
 fn thicket(count: u32, shift: f64) -> String {
     let mut text = String::new();
     for i in 0..count {
@@ -500,7 +505,7 @@ fn frames_that_change_between_frames() {
             )
             .unwrap();
         }
-        // A frame prints some 20 kB; nobody reads them yet, so that the program waits some frames from here.
+        // A frame prints some 20 kB. Nobody reads yet, so the program blocks some frames from here.
         let mut child = Command::new(env!("CARGO_BIN_EXE_pliant"))
             .current_dir(path)
             .args(["check", "t*.obj", "--format", "json"])
@@ -556,7 +561,7 @@ fn more_pairs_than_memory() {
     let refused = listed("25599");
     refused.assert_refused(&["frame 0", "more than 1599 pairs", "--max-memory", "--count"]);
     assert!(refused.json()["error"].is_string());
-    // Nothing is kept where nothing is listed: of four million pairs, 64 MB.
+    // Without lists nothing is kept: four million pairs would take 64 MB.
     fs::write(path.join("thicket.obj"), thicket(2000, 0.0)).unwrap();
     for (arguments, pairs) in [
         (&[][..], "4,000,000"),
@@ -582,7 +587,7 @@ fn more_pairs_than_memory() {
 fn what_would_take_hours_is_refused_with_its_reason() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
-    // A polygon that goes to and fro; all triangles of its fan share vertices.
+    // A polygon that goes to and fro. All triangles of its fan share vertices.
     let corners = "1 2 ".repeat(80_000);
     fs::write(
         path.join("fro.obj"),
@@ -605,7 +610,7 @@ fn what_would_take_hours_is_refused_with_its_reason() {
     )
     .unwrap();
     refused(path, "fro.ply", &["visits 2 vertices 160000 times in all"]);
-    // A sparse file: triangles that are all one point. Each meets each other: two thousand million pairs, or twenty.
+    // A sparse file of triangles in a single point: two thousand million pairs, or twenty.
     for (count, is_refused) in [(1 << 16, false), (200_000, true)] {
         let mut file = File::create(path.join("point.stl")).unwrap();
         file.write_all(&[&[b' '; 80][..], &u32::to_le_bytes(count)].concat())
@@ -615,7 +620,8 @@ fn what_would_take_hours_is_refused_with_its_reason() {
         let said = measured(path, &arguments).said;
         if is_refused {
             said.assert_refused(&[
-                "point.stl: 200000 triangles are one point, (0e0, 0e0, 0e0), where each meets every other; mend it",
+                "point.stl: 200000 triangles are one point, (0e0, 0e0, 0e0), where each meets \
+                 every other; mend it",
             ]);
         } else {
             assert_eq!((said.code, said.err.as_str()), (1, ""));
@@ -672,7 +678,7 @@ fn very_many_names_are_no_danger() {
         said.out
     );
     assert!(peak.is_none_or(|peak| peak < LITTLE), "{peak:?}");
-    // Very many with a face each, and as many names of one object, which is long.
+    // Very many names with a face each, and equally many of one object, whose name is long.
     let mut many = corners.to_owned();
     for number in 0..100_000 {
         writeln!(many, "g {number}\nf 1 2 3").unwrap();

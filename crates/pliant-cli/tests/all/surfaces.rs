@@ -1,4 +1,4 @@
-//! Files as people have them: which surface a file is taken to be, and what is said where another one may be meant.
+//! Surfaces that files stand for, and notes where another surface may be meant.
 
 use crate::common::{check, folder, kinds, pliant};
 use serde_json::json;
@@ -7,7 +7,7 @@ use std::fs;
 
 type Point = [f64; 3];
 
-/// The triangles of a tetrahedron of sides of about one, each side cut into sixteen.
+/// Triangles of a tetrahedron with sides of about one, each side cut into sixteen.
 fn tetrahedron() -> Vec<[Point; 3]> {
     let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let mut triangles: Vec<[Point; 3]> = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
@@ -25,7 +25,8 @@ fn tetrahedron() -> Vec<[Point; 3]> {
     triangles
 }
 
-/// An OBJ file in which every triangle has corners of its own, moved by up to so much, another way in each.
+/// An OBJ file in which every triangle has corners of its own, each moved by up to `by` in another
+/// way.
 fn soup(triangles: &[[Point; 3]], by: f64) -> String {
     let mut state = 7_u64;
     let mut noise = || {
@@ -54,12 +55,12 @@ fn seams_that_nearly_coincide_are_joined_if_asked_for_and_named_otherwise() {
     assert_eq!(note.lines().count(), 1, "{note}");
     assert!(note.starts_with("pliant: note: part.obj: "), "{note}");
     assert!(note.contains("with itself in frame 0 lie where boundary edges nearly coincide"));
-    // What the line says is enough.
+    // The note suffices.
     let tolerance = note.split_once("`--weld ").unwrap().1;
     let tolerance = tolerance.split_once('`').unwrap().0;
     let joined = check(path, &["part.obj", "--weld", tolerance, "--format", "json"]);
     assert_eq!(joined.code, 0, "{}", joined.out);
-    // 34 places of 192 corners.
+    // The 192 corners are at 34 places.
     assert_eq!(joined.json()["bodies"][0]["welded"], 192 - 34);
     let note = joined.err.trim_end();
     assert!(
@@ -68,7 +69,7 @@ fn seams_that_nearly_coincide_are_joined_if_asked_for_and_named_otherwise() {
     );
     assert_eq!(check(path, &["part.obj", "--quiet"]).err, "");
 
-    // Written once, a file is closed for good.
+    // Once written, a file is closed for good.
     let said = pliant(
         path,
         &["convert", "part.obj", "closed.obj", "--weld", "1e-6"],
@@ -116,7 +117,8 @@ fn joined_sides_that_part_in_a_later_frame_are_apart_there() {
 
 #[test]
 fn triangles_without_area_are_counted_named_and_left_out() {
-    // A pole of a hundred needles, and a triangle that it passes through; two proper triangles that cross.
+    // A pole of a hundred needles and a triangle that it passes through; two proper triangles that
+    // cross.
     let mut text = "v 0 0 -1\nv 0 0 1\n".to_owned();
     for number in 1..=100 {
         writeln!(
@@ -159,7 +161,7 @@ fn triangles_without_area_are_counted_named_and_left_out() {
     assert_eq!(json["skip_degenerate"], true);
     assert_eq!([&frame["count"], &frame["degenerate"]], [1, 100]);
     assert_eq!(frame["pairs"], serde_json::json!([[0, 100, 0, 101]]));
-    // With the first pair too, and where nothing else is left.
+    // Also with `--first`, and where nothing else is left.
     let said = check(
         path,
         &[
@@ -210,7 +212,7 @@ fn files_may_be_named_without_their_folders() {
         with(&["--split", "components", "--ignore", "a.obj#1,b.obj#1"]).out,
         "0 2\n"
     );
-    // Two are called so.
+    // Two have this name.
     check(
         path,
         &[
@@ -254,7 +256,7 @@ fn an_earlier_check_is_a_baseline() {
     assert_eq!(again.code, 0);
     assert_eq!(again.json()["frames"][0]["left_out"], 1);
     assert_eq!(again.json()["baseline"], "old.json");
-    // The other way round, and by other paths: bodies are known by their names.
+    // In reverse order, and by other paths: bodies are identified by their names.
     let there = path.join("n.obj");
     let there = there.to_str().unwrap();
     let turned = check(
@@ -267,7 +269,7 @@ fn an_earlier_check_is_a_baseline() {
         "{}",
         turned.out
     );
-    // A pair of any frame is left out of all; pieces have numbers of their own.
+    // A pair of any frame is left out of all frames; pieces have numbers of their own.
     save(
         "all.json",
         &["n_?.obj", "wall.obj", "--split", "components"],
@@ -312,7 +314,10 @@ fn an_earlier_check_is_a_baseline() {
 
 #[test]
 fn polygons_that_bend_inward_are_cut_inside() {
-    // An L, from each of its corners, and a spike through its notch, which a fan would meet; another goes through the L.
+    // An L-shaped polygon, from each of its corners on, and a spike through its notch, which a fan
+    // would cover.
+    //
+    // Another spike goes through the L.
     let corners = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]];
     let mut text = String::new();
     for [x, y] in corners {
@@ -333,7 +338,7 @@ fn polygons_that_bend_inward_are_cut_inside() {
         assert_eq!((past.code, &past.err[..]), (0, ""), "{first}: {}", past.out);
         let counts = check(path, &["through.obj", "--format", "json"]).counts();
         assert!([1, 2].contains(&counts[0]), "{first}: {counts:?}");
-        // The same polygons in a later frame are the same, and no others are.
+        // Equal polygons in a later frame are cut equally.
         let convert = |to: &str| pliant(path, &["convert", "two_*.obj", to]).code;
         assert_eq!(check(path, &["two_*.obj"]).code, 0);
         assert_eq!(convert("same.npz"), 0);
@@ -479,7 +484,7 @@ fn solids_are_groups_and_other_formats_say_why_they_have_none() {
         let advice = "split it into its connected pieces with `--split components`";
         let said = check(path, &[to, "--split", "groups"]);
         said.assert_refused(&[to, "cannot be split into groups: ", advice]);
-        // Beside what has groups it is one body.
+        // Beside files with groups it is one body.
         let said = check(path, &[to, "two.stl", "--split", "groups"]);
         assert_eq!(said.code, 1, "{}", said.err);
     }
@@ -507,7 +512,7 @@ fn polygons_that_are_doubtful_are_noted() {
     assert_eq!(said.lines().count(), 1, "{said}");
 }
 
-/// A flat strip of so many squares, and a spike through the last of them if `pierced`.
+/// A flat strip of `squares` squares, and a spike through the last one if `pierced`.
 fn strip(squares: usize, pierced: bool) -> String {
     let mut text = String::new();
     for x in 0..=squares {
@@ -557,7 +562,7 @@ fn a_mesh_may_change_from_file_to_file() {
     assert_eq!(said(5), changes("6 vertices, 4 triangles"));
     assert_eq!(table.out.matches("another mesh").count(), 3);
 
-    // Each frame is what its file is, also where those before it are passed over or read first.
+    // Each frame equals its file, also where earlier frames are passed over or read first.
     let json = check(path, &["f*.obj", "--format", "json"]).json();
     for (frame, name) in names.iter().enumerate() {
         let alone = check(path, &[name, "--format", "json"]).json();
@@ -582,19 +587,22 @@ fn a_mesh_may_change_from_file_to_file() {
     assert!(all[2] > 0 && all[2] == all[3] && all[4] > 0, "{all:?}");
     assert_eq!(new.counts(), [0, 0, 0, 0, all[4], 0]);
 
-    // What was found of meshes that change is no baseline, and pieces are those of one mesh.
+    // Pairs of changing meshes are no baseline, and pieces belong to one mesh.
     fs::write(path.join("before.json"), json.to_string()).unwrap();
     let refused = check(path, &["f*.obj", "--baseline", "before.json"]);
     refused.assert_refused(&["before.json", "a mesh changes in it"]);
     let refused = check(path, &["f*.obj", "--split", "components", "-q"]);
     refused.assert_refused(&["frame 2", "another mesh", "without `--split`"]);
-    // A file of one mesh cannot hold several.
+    // A file format of one mesh cannot hold several.
     let refused = pliant(path, &["convert", "f*.obj", "all.npz"]);
     refused.assert_refused(&["f2.obj", "vertices", "export all of them from one mesh"]);
 }
 
-/// Three objects as Blender writes them, two of which share an edge of the file; the third, which crosses the first, has a group.
-const OBJECTS: &str = "mtllib a.mtl\no Flat\nv 0 0 0\nv 4 0 0\nv 0 4 0\ns 0\nf 1 2 3\no Next part\nv 4 4 0\nf 2 4 3\n\
+/// Three objects as Blender writes them. Two share an edge of the file; the third crosses the first
+/// and has a group.
+const OBJECTS: &str = "mtllib a.mtl\n\
+    o Flat\nv 0 0 0\nv 4 0 0\nv 0 4 0\ns 0\nf 1 2 3\n\
+    o Next part\nv 4 4 0\nf 2 4 3\n\
     o Up\nv 1 1 -1\nv 1 1 1\nv 1 2 1\ng Up_Skin\nf 5 6 7\n";
 
 #[test]
@@ -609,12 +617,21 @@ fn groups_of_an_obj_file_are_bodies() {
     let json = |arguments: &[&str]| {
         check(path, &[arguments, &["--format", "json"]].concat()).json_without_places()
     };
-    let body = |name: &str, triangle: u32| json!({"name": name, "vertices": 3, "triangles": 1, "source": 0, "first_triangle": triangle});
+    let body = |name: &str, triangle: u32| {
+        json!({
+            "name": name, "vertices": 3, "triangles": 1, "source": 0, "first_triangle": triangle
+        })
+    };
+    let frame = |pair: [u32; 4]| {
+        json!({
+            "frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [pair]
+        })
+    };
     let whole = json(&["scan.obj"]);
     assert_eq!(
         whole,
         json!({"format": 1, "bodies": [{"name": "scan.obj", "vertices": 7, "triangles": 3}],
-            "frames": [{"frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [[0, 0, 0, 2]]}]})
+            "frames": [frame([0, 0, 0, 2])]})
     );
     let split = json(&["scan.obj", "--split", "groups"]);
     let bodies = json!([
@@ -626,10 +643,10 @@ fn groups_of_an_obj_file_are_bodies() {
         split,
         json!({
             "format": 1, "bodies": bodies, "split": "groups", "triangle_numbers": "source",
-            "sources": whole["bodies"], "frames": [{"frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [[0, 0, 2, 2]]}]
+            "sources": whole["bodies"], "frames": [frame([0, 0, 2, 2])]
         })
     );
-    // Named by arguments: the same numbers of triangles, and the same source.
+    // Named by arguments: equal numbers of triangles, and the same source.
     let named = json(&["scan.obj#Up", "scan.obj#Flat", "./scan.obj#Next part"]);
     let bodies = json!([
         body("scan.obj#Up", 2),
@@ -643,12 +660,12 @@ fn groups_of_an_obj_file_are_bodies() {
             "frames": [{"frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [[0, 2, 1, 0]]}]
         })
     );
-    // The edge that two of them share is no hit, and nothing else is left.
+    // Their common edge is no hit, and nothing else is left.
     assert_eq!(
         check(path, &["scan.obj#Flat", "scan.obj#Next part"]).code,
         0
     );
-    // What has no groups stays one body, beside what has.
+    // A file without groups stays one body, beside files with groups.
     let both = json(&["still.stl", "scan.obj", "--split", "groups"]);
     let names = both["bodies"].as_array().unwrap().iter();
     let names: Vec<_> = names.map(|body| body["name"].as_str().unwrap()).collect();
@@ -706,7 +723,7 @@ fn groups_are_named_in_rules_baselines_and_pictures() {
 
     let split = json(&["scan.obj", "--split", "groups"]);
     let named = json(&["scan.obj#Up", "scan.obj#Flat", "scan.obj#Next part"]);
-    // What one way found is a baseline for the other.
+    // Pairs found one way are a baseline for the other.
     for (old, arguments) in [
         (
             &split,

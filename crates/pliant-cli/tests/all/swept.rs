@@ -1,22 +1,22 @@
-//! `pliant check --swept`, from end to end.
+//! End-to-end tests of `pliant check --swept`.
 
 use crate::common::{Said, check, folder, kinds};
 use serde_json::{Value, json};
 use std::path::Path;
 use tempfile::TempDir;
 
-/// A triangle in the plane 0.
+/// A triangle in the plane z = 0.
 fn floor() -> String {
     "v -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n".to_owned()
 }
 
-/// A triangle that stands on a corner at this height; the others are five above it.
+/// A triangle that stands on a corner at this height. Its other corners are five above.
 fn leaf(height: f64) -> String {
     let above = height + 5.0;
     format!("v 0 0 {height}\nv 1 0 {above}\nv 0 1 {above}\nf 1 2 3\n")
 }
 
-/// `leaf_0.obj`, `leaf_1.obj`, ... at these heights over `floor.obj`.
+/// Files `leaf_0.obj`, `leaf_1.obj`, ... at these heights, over `floor.obj`.
 fn falling(heights: &[f64]) -> TempDir {
     let names: Vec<String> = (0..heights.len())
         .map(|n| format!("leaf_{n}.obj"))
@@ -36,7 +36,7 @@ fn swept(folder: &Path, more: &[&str]) -> Said {
     )
 }
 
-/// The frames, without places.
+/// Frames without their places.
 fn frames(said: &Said) -> Value {
     let mut json = said.json();
     let frames = json["frames"].as_array_mut().unwrap();
@@ -46,7 +46,8 @@ fn frames(said: &Said) -> Value {
     json["frames"].take()
 }
 
-/// 2^-20, the power of two below a millionth: times are between neighbouring multiples of it.
+/// Grid of times, 2^-20: the power of two below a millionth. Times are between neighbouring
+/// multiples.
 const STEP: f64 = 1.0 / 1_048_576.0;
 
 #[test]
@@ -86,7 +87,7 @@ fn a_jump_through_a_triangle_has_its_exact_time() {
     });
     assert_eq!(frames(&said)[1], first);
 
-    // Nothing of it where it is not asked, and a later check takes the frames as its baseline.
+    // Nothing about it where it is not asked for; a later check takes the frames as its baseline.
     let said = check(
         folder.path(),
         &["leaf_*.obj", "floor.obj", "--format", "json"],
@@ -167,7 +168,7 @@ fn what_touches_in_a_frame_is_news_of_the_way_there_alone() {
 
 #[test]
 fn either_is_exit_code_1() {
-    // Frames alone, the way alone, both, neither.
+    // Hits in frames alone, on the way alone, in both, in neither.
     for (heights, code) in [
         (&[-1.0, -1.0][..], 1),
         (&[3.0, -7.0], 1),
@@ -198,13 +199,16 @@ fn people_read_it() {
     let folder = falling(&[3.0, -7.0, -8.0, 0.0, 1.0]);
     let said = swept(folder.path(), &[]).out;
     for line in [
-        "checked: the bodies with each other, not with themselves, and what meets on the way from frame to frame",
+        "checked: the bodies with each other, not with themselves, and what meets on the way from \
+         frame to frame",
         "   frame  file           pairs  first pair",
         "       0  leaf_0.obj         0",
-        "    to 1                     3  met on the way, the first at 0.3: vertex 0 of body 0, triangle 0 of body 1",
+        "    to 1                     3  met on the way, the first at 0.3: vertex 0 of body 0, \
+         triangle 0 of body 1",
         "       1  leaf_1.obj         0",
         "    to 2                     0",
-        "    to 3                     3  met on the way, the first at 0.375: vertex 1 of body 0, triangle 0 of body 1",
+        "    to 3                     3  met on the way, the first at 0.375: vertex 1 of body 0, \
+         triangle 0 of body 1",
         "    to 4                     0  in contact in frame 3 already: 1",
         "1 of 5 frames intersect; most pairs: 1 in frame 3",
         "on the way from a frame to the next something meets in 2 of 4",
@@ -229,18 +233,22 @@ fn a_mesh_that_changes_is_said_so_and_that_interval_is_not_looked_at() {
     let frames = frames(&said);
     assert_eq!(
         frames[1],
-        json!({"frame": 0, "until": 1, "changed": [0], "count": null, "at_start": null, "first": null})
+        json!({
+            "frame": 0, "until": 1, "changed": [0], "count": null, "at_start": null, "first": null
+        })
     );
     assert_eq!(
         (&frames[3]["frame"], &frames[3]["count"]),
         (&json!(1), &json!(3))
     );
-    let note = "note: 1 interval between frames not looked at, for a mesh changes there: the first from frame 0 to 1";
+    let note = "note: 1 interval between frames not looked at, for a mesh changes there: the first \
+                from frame 0 to 1";
     assert!(said.err.contains(note), "{}", said.err);
     let table = swept(folder.path(), &[]);
     for line in [
         "    to 1                     -  not looked at: the mesh of body 0 changes",
-        "on the way from a frame to the next something meets in 1 of 1; 1 not looked at, for a mesh changes",
+        "on the way from a frame to the next something meets in 1 of 1; 1 not looked at, for a \
+         mesh changes",
     ] {
         assert!(
             table.out.lines().any(|it| it == line),
@@ -250,11 +258,12 @@ fn a_mesh_that_changes_is_said_so_and_that_interval_is_not_looked_at() {
     }
     assert!(table.err.contains(note), "{}", table.err);
     assert_eq!(swept(folder.path(), &["--quiet"]).err, "");
-    // What was not looked at is no hit.
+    // A skipped interval is no hit.
     std::fs::remove_file(folder.path().join("leaf_2.obj")).unwrap();
     let said = swept(folder.path(), &[]);
     assert_eq!(said.code, 0);
-    let line = "on the way from a frame to the next something meets in 0 of 0; 1 not looked at, for a mesh changes";
+    let line = "on the way from a frame to the next something meets in 0 of 0; 1 not looked at, \
+                for a mesh changes";
     assert!(said.out.lines().any(|it| it == line), "{}", said.out);
 }
 

@@ -1,4 +1,5 @@
-//! `pliant check` told who may meet whom, and what is known: --split, --group, --ignore, --baseline, from end to end.
+//! End-to-end tests of rules on who may meet, and of baselines: --split, --group, --ignore,
+//! --baseline.
 
 use crate::common::{check, folder, kinds, measured};
 use serde_json::json;
@@ -7,12 +8,12 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// Vertices and a triangle: it stands upright in x and crosses z from -1 to 1.
+/// A triangle that stands upright in x and crosses z from -1 to 1.
 fn upright(x: f64) -> String {
     format!("v {x} 0 -1\nv {x} 0 1\nv {x} 2 1\nf -1 -2 -3\n")
 }
 
-/// Vertices and a triangle in the plane z, which uprights from x = 0 to 4 cross where z is from -1 to 1.
+/// A triangle in the plane z. Uprights from x = 0 to 4 cross it where z is from -1 to 1.
 fn flat(z: f64) -> String {
     format!("v -1 -1 {z}\nv 9 -1 {z}\nv -1 9 {z}\nf -1 -2 -3\n")
 }
@@ -21,7 +22,8 @@ fn json(folder: &Path, arguments: &[&str]) -> serde_json::Value {
     check(folder, &[arguments, &["--format", "json"]].concat()).json_without_places()
 }
 
-/// One file of three pieces, their triangles mixed: a square of two, a sheet that it crosses, and one that nothing meets.
+/// A file of three pieces with mixed triangles: a square of two, a sheet that crosses it, and one
+/// apart.
 fn mixed() -> String {
     let square = "v 1 0 -1\nv 1 0 1\nv 1 2 1\nv 1 2 -1\n";
     square.to_owned() + "f 1 2 3\n" + &flat(0.0) + "f 1 3 4\n" + &flat(50.0)
@@ -34,7 +36,12 @@ fn pieces_of_a_file_are_bodies() {
         folder.path(),
         &["mixed.obj", "still.obj", "--split", "components"],
     );
-    let piece = |name: &str, vertices: u32, triangles: u32, source: u32, first: u32| json!({"name": name, "vertices": vertices, "triangles": triangles, "source": source, "first_triangle": first});
+    let piece = |name: &str, vertices: u32, triangles: u32, source: u32, first: u32| {
+        json!({
+            "name": name, "vertices": vertices, "triangles": triangles,
+            "source": source, "first_triangle": first
+        })
+    };
     let bodies = json!([
         piece("mixed.obj#1", 4, 2, 0, 0),
         piece("mixed.obj#2", 3, 1, 0, 1),
@@ -46,7 +53,10 @@ fn pieces_of_a_file_are_bodies() {
         {"name": "still.obj", "vertices": 3, "triangles": 1},
     ]);
     // Triangles are numbered as in the file: the sheet is triangle 1 of its piece's source.
-    let frames = json!([{"frame": 0, "count": 3, "kinds": kinds([3, 0, 0]), "pairs": [[0, 0, 1, 1], [0, 2, 1, 1], [1, 1, 3, 0]]}]);
+    let frames = json!([{
+        "frame": 0, "count": 3, "kinds": kinds([3, 0, 0]),
+        "pairs": [[0, 0, 1, 1], [0, 2, 1, 1], [1, 1, 3, 0]]
+    }]);
     assert_eq!(
         said,
         json!({
@@ -73,7 +83,7 @@ fn pieces_of_a_file_are_bodies() {
         "{table}"
     );
 
-    // One piece alone is checked with itself, as one body is.
+    // A single piece is checked with itself, as a single body is.
     let alone = check(folder.path(), &["still.obj", "--split", "components"]).out;
     assert!(alone.contains("the body with itself"), "{alone}");
     let words = check(folder.path(), &["still.obj", "--split", "halves"]);
@@ -102,7 +112,7 @@ fn what_is_welded_hangs_together() {
     assert_eq!(apart["frames"][0]["count"], 3);
 }
 
-/// A shell of single triangles, none of which touches another, and an upright triangle that crosses the lowest.
+/// A shell of separate triangles, and an upright triangle that crosses the lowest.
 fn shell(triangles: u32) -> String {
     let mut text = String::new();
     let side = 100;
@@ -136,7 +146,8 @@ fn a_shell_of_single_triangles_is_no_danger() {
         &[&["shell.obj", "--split", "components"], &named[..]].concat(),
     );
     assert_eq!(ignored.code, 0, "{}", ignored.out);
-    // What is promised of any file: 3.5 times two frames and 12 MB. A body of the world for each takes two thousand bytes.
+    // The promise for any file: 3.5 times two frames and 12 MB. A body of its own in the world
+    // takes two thousand bytes.
     let frame = u64::from(count + 1) * (3 * 24 + 12);
     if let Some(peak) = split.peak {
         assert!(peak < 7 * frame + (12 << 20), "{peak}");
@@ -245,7 +256,7 @@ fn names_of_nobody_are_refused() {
     );
     refused(&["--baseline", "1"], &["baseline", "frame 1", "0 to 0"]);
     refused(&["--baseline", "last"], &["the baseline last"]);
-    // Words that no list can be made of are explained by what reads them.
+    // Unreadable lists are explained where they are parsed.
     for more in [
         ["--ignore", "a.obj"],
         ["--ignore", "a,b,c"],
@@ -257,7 +268,9 @@ fn names_of_nobody_are_refused() {
     }
 }
 
-/// Six frames: an upright triangle goes along x, through the sheet, from 3 on beyond it; another crosses the sheet always.
+/// Six frames: an upright triangle moves along x, through the sheet, beyond it from frame 3 on.
+///
+/// Another triangle crosses the sheet in every frame.
 fn moving() -> TempDir {
     let mut files = Vec::new();
     for frame in 0..6 {
@@ -323,7 +336,8 @@ fn only_what_is_new() {
     .out;
     let lines: Vec<_> = table.lines().map(str::trim).collect();
     for line in [
-        "checked: the bodies with each other, not with themselves; left out: pairs that frame 4 has",
+        "checked: the bodies with each other, not with themselves; left out: pairs that frame 4 \
+         has",
         "frame  file        pairs  left out  first pair",
         "0  m_0.obj         1         -  triangle 0 of body 0, triangle 0 of body 1",
         "4  m_4.obj         0         1",

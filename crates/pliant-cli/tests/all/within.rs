@@ -1,4 +1,4 @@
-//! `pliant check --within`, from end to end.
+//! End-to-end tests of `pliant check --within`.
 
 use crate::common::{check, folder};
 use serde_json::{Value, json};
@@ -9,7 +9,7 @@ fn flat(z: f64) -> String {
     format!("v -1 -1 {z}\nv 9 -1 {z}\nv -1 9 {z}\nf 1 2 3\n")
 }
 
-/// Two triangles far from each other, with a corner each that is above the plane z by as much as is said, or below.
+/// Two triangles far apart. A corner of each is above the plane z by the given height, or below.
 fn two_corners(heights: [f64; 2]) -> String {
     let [a, b] = heights;
     format!("v 0 0 {a}\nv 0 1 5\nv 1 0 5\nv 2 0 {b}\nv 2 1 5\nv 3 0 5\nf 1 2 3\nf 4 5 6\n")
@@ -42,7 +42,7 @@ fn pairs_are_those_as_close_as_that_and_the_least_distance_is_said() {
             {"frame": 2, "count": 0, "distance": null, "pairs": []}
         ])
     );
-    // The number before a quarter is too small, and 0 leaves what intersects.
+    // The float before a quarter is too small; 0 leaves pairs that intersect.
     let frames = |said: &Value| -> Vec<[Value; 2]> {
         let frames = said["frames"].as_array().unwrap().iter();
         let frames = frames.map(|frame| [frame["count"].clone(), frame["distance"].clone()]);
@@ -54,7 +54,7 @@ fn pairs_are_those_as_close_as_that_and_the_least_distance_is_said() {
         let nothing = || [json!(0), Value::Null];
         assert_eq!(said, [nothing(), [json!(count), json!(0.0)], nothing()]);
     }
-    // Of each frame the nearest, whichever comes first.
+    // With `--first`, the nearest pair of each frame, whatever its order.
     let said = of("3", &["--first"]);
     assert_eq!(
         said["frames"],
@@ -64,7 +64,7 @@ fn pairs_are_those_as_close_as_that_and_the_least_distance_is_said() {
             {"frame": 2, "count": 1, "complete": false, "distance": 1.0, "pairs": [[0, 0, 1, 0]]}
         ])
     );
-    // What frame 0 has is known.
+    // Pairs of frame 0 are known.
     let said = of("3", &["--baseline", "0", "--count"]);
     let counted = json!([
         {"frame": 0, "count": 0, "distance": null, "left_out": 2},
@@ -72,7 +72,7 @@ fn pairs_are_those_as_close_as_that_and_the_least_distance_is_said() {
         {"frame": 2, "count": 0, "distance": null, "left_out": 2}
     ]);
     assert_eq!(said["frames"], counted);
-    // Nothing of it where it is not asked.
+    // Nothing about it where it is not asked for.
     let said = json(folder.path(), &["shirt_*.obj", "skin.obj"]);
     assert_eq!(said.get("within"), None);
     assert_eq!(said["frames"][0].get("distance"), None);
@@ -111,7 +111,8 @@ fn people_read_it() {
         "   frame  file            pairs    distance  first pair",
         "       0  shirt_0.obj         2        0.25  triangle 0 of body 0, triangle 0 of body 1",
         "       1  shirt_1.obj         0           -",
-        "1 of 2 frames have triangles of two bodies at most 0.5 apart; least distance: 0.25 in frame 0; most pairs: 2 in frame 0",
+        "1 of 2 frames have triangles of two bodies at most 0.5 apart; least distance: 0.25 in \
+         frame 0; most pairs: 2 in frame 0",
     ] {
         assert!(said.lines().any(|it| it == line), "{line:?}: {said}");
     }
@@ -124,7 +125,9 @@ fn people_read_it() {
         folder.path(),
         &[&arguments[..], &["--format", "github", "--count"]].concat(),
     );
-    let message = "::error file=shirt_0.obj,title=pliant::frame 0: 2 pairs of triangles at most 0.5 apart, the nearest 0.25; the first: triangle 0 of shirt_*.obj and triangle 0 of skin.obj";
+    let message = "::error file=shirt_0.obj,title=pliant::frame 0: 2 pairs of triangles at most \
+                   0.5 apart, the nearest 0.25; the first: triangle 0 of shirt_*.obj and triangle \
+                   0 of skin.obj";
     assert_eq!(said.out.lines().next(), Some(message));
 }
 
@@ -170,7 +173,8 @@ fn a_report_says_what_is_close() {
     assert_eq!(check(folder.path(), &arguments).code, 1);
     let page = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
     for said in [
-        "There are triangles of two bodies that are at most 0.5 apart in 2 of 2 frames, first in frame 0. Most: 2 pairs, in frame 0.",
+        "There are triangles of two bodies that are at most 0.5 apart in 2 of 2 frames, first in \
+         frame 0. Most: 2 pairs, in frame 0.",
         "pairs at most 0.5 apart per frame",
         r#""within":0.5"#,
     ] {

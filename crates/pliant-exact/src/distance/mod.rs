@@ -1,28 +1,16 @@
-//! How far apart a vertex and a triangle are, or two edges: whether at most so far, exactly; and by which of their points. Two triangles are
-//! in `triangles`.
+//! How far apart a vertex and a triangle are, or two edges: whether at most so far, and how far.
 //!
-//! A squared distance is a quotient of integers. The least distance of two elements is that of a pair of *features* at which it is
-//! attained: an end and an edge, the inside of a face and a vertex, the insides of two edges. Each of these is some distance of the
-//! elements, and one of them is the least. So they are within d if and only if one of them is, and each comparison is of integers:
-//!
-//! ```text
-//! a point p and an edge a + s e, t = p - a       s = t.e / e.e      within (0, 1): |t x e|^2 / e.e, else that of an end
-//! a point and a face, n = e1 x e2                inside by three signs: (n.t)^2 / n.n
-//! two edges, n = e x f, t = a - b                s = -(t x f).n / n.n and the other within [0, 1]: (n.t)^2 / n.n
-//! ```
-//!
-//! Where n is zero, the face is an edge or a point, and two parallel edges are as near as an end of one is to the other.
-//!
-//! With b bits a coordinate, a difference has b + 1, a normal 2 (b + 1) + 1 in each of three and its square 4 (b + 1) + 4, the square of a
-//! volume 6 (b + 1) + 6. Two quotients of such are compared by products of 10 (b + 1) + 10 bits, and of the square of a distance by as few,
-//! for that is only done where they are nearly equal. So up to 60 bits a coordinate nothing is allocated.
-//!
-//! This is for what `kernels::closest` leaves undecided: some microseconds each. It has the least distance as a
-//! quotient, and so each of its figures with an error of a few units in the last place, however small the distance is.
+//! The least distance of two elements is that of a pair of *features*: ends, insides of edges, the
+//! inside of a face. Each pair of features is some distance apart, and one is the nearest; its
+//! squared distance is a quotient of integers. So "at most d" is a comparison of integers. A
+//! distance has an error of a few units in the last place, however small it is. The features are
+//! known from minimum-distance tests (Ericson 2005, chapter 5); here they are compared exactly.
 
 mod triangles;
 
-use super::integer::{Integer, parts, powers_of_all, quotient};
+use super::float::{power, scaled};
+use super::integer::{Integer, in_proportion, parts, powers_of_all, quotient};
+use super::ring::Ring;
 use super::vector::{Vector, cross, dot, in_units, minus};
 use super::{Point, denormals_are_kept};
 pub use triangles::point_in_common;
@@ -33,19 +21,19 @@ pub use triangles::{SomePoints, TrianglesClosest, are_triangles_within, closest_
 pub enum Primitives {
     /// A point, and the corners of a triangle.
     VertexTriangle([Point; 4]),
-    /// The ends of one edge, and those of another.
+    /// The ends of one edge, and the ends of another.
     EdgeEdge([Point; 4]),
 }
 
 /// Where two elements are closest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Closest {
-    /// How far apart they are.
+    /// How far apart they are, in the unit of the coordinates.
     pub distance: f64,
-    /// Of a triangle a, b, c the point is a + p (b - a) + q (c - a). Of two edges it is the part p of the way along the first, and the
-    /// part q along the second.
+    /// Where the points are: in a triangle a, b, c the point a + p (b - a) + q (c - a). On two
+    /// edges the part p of the way along the first, and the part q along the second.
     pub along: [f64; 2],
-    /// From the second to the first, of length 1 but for rounding; zero if the distance is.
+    /// From the second to the first, of length 1 within rounding; zero if the distance is.
     pub direction: Point,
 }
 
@@ -61,7 +49,10 @@ struct Feet {
 /// Distances that are larger are all the same: no two points are further apart.
 const FARTHEST: f64 = 2.0 * 2.0 * (f32::MAX as f64);
 
-/// Whether elements are at most so far apart. Exact; the distance is at least 0, coordinates at most `f32::MAX` in magnitude.
+/// Whether two elements are at most a distance apart. Exact.
+///
+/// The distance is at least 0, in the unit of the coordinates, which are at most `f32::MAX` in
+/// magnitude. Cost: some microseconds.
 #[cold]
 pub fn are_within_distance(elements: &Primitives, distance: f64) -> bool {
     if distance >= FARTHEST {
@@ -75,16 +66,18 @@ pub fn are_within_distance(elements: &Primitives, distance: f64) -> bool {
     is_within
 }
 
-/// Whether two points are at most so far apart; as [`are_within_distance`], but for most points at once.
+/// Whether two points are at most a distance apart: as [`are_within_distance`], and mostly at once.
 ///
-/// With u = 2^-53 the square of the distance of the points is off by 5 u of itself (a difference twice, a square, two sums), that of the
-/// given distance by u: 32 u of the latter are allowed for. What is lost below the normal range, at most 2^-1020, is less than the rest of
-/// that where the latter is above 2^-900.
+/// The distance is at least 0, in the unit of the coordinates. With u = 2^-53 the square of the
+/// distance of the points is off by 5 u of itself (a difference twice, a square, two sums). That of
+/// the given distance is off by u: 32 u of the latter are allowed for. What is lost below the
+/// normal range is at most 2^-1020. That is less than the rest of what is allowed where the latter
+/// is above 2^-900.
 pub fn are_points_within(p: &Point, q: &Point, distance: f64) -> bool {
-    let [x, y, z] = std::array::from_fn(|axis| p[axis] - q[axis]);
-    let square = x * x + y * y + z * z;
+    let way = minus(p, q);
+    let square = dot(&way, &way);
     let limit = distance * distance;
-    if limit >= f64::powi(0.5, 900) && (square - limit).abs() > limit * (16.0 * f64::EPSILON) {
+    if limit >= power(-900) && (square - limit).abs() > limit * (16.0 * f64::EPSILON) {
         return square < limit;
     }
     are_within_distance(&Primitives::EdgeEdge([*p, *p, *q, *q]), distance)
@@ -98,17 +91,15 @@ fn is_at_most(feet: &Feet, distance: f64, unit: i32) -> bool {
     // The integer and the power of two that it is, in units.
     let (_, integer, exponent) = parts(distance);
     let exponent = exponent - unit;
-    let zeros = integer.leading_zeros();
-    let m = (integer << zeros) as f64 * f64::powi(0.5, 63);
-    let e = exponent + 63 - zeros as i32;
+    let integer = Integer::from(integer);
+    let (m, e) = integer.approximately();
     // Both are off by less than 2^-49 of themselves.
     let (n, f) = quotient(&feet.over, &feet.under);
-    let square = scaled(m * m, (2 * e - f).clamp(-8, 8));
-    if (square - n).abs() > n * f64::powi(0.5, 40) {
+    let square = scaled(m * m, (2 * (e + exponent) - f).clamp(-8, 8));
+    if (square - n).abs() > n * power(-40) {
         return n < square;
     }
     // So neither of these is much larger than the other.
-    let integer = Integer::new(integer as f64, 0);
     let shift = 2 * exponent.unsigned_abs() as usize;
     let [of_over, of_square] = if exponent < 0 { [shift, 0] } else { [0, shift] };
     let over = feet.over.shifted(of_over);
@@ -116,14 +107,19 @@ fn is_at_most(feet: &Feet, distance: f64, unit: i32) -> bool {
     over.is_at_most(&square.shifted(of_square))
 }
 
-/// Where elements are closest: distance and direction with an error of less than 2^-48 of themselves, and what is `along` within 2^-48
-/// of the exact one. The distance is zero where they touch alone: what is below the smallest number is that, and off by as much.
+/// Where two elements are closest: distance and direction with an error of less than 2^-48 of
+/// themselves.
+///
+/// What is `along` is within 2^-48 of the exact one. The distance is zero where they touch alone:
+/// what is below the smallest number is that, and off by as much. Coordinates are [in
+/// range](crate::is_in_range). Cost: some microseconds.
 #[cold]
 pub fn closest(elements: &Primitives) -> Closest {
     closest_of(std::slice::from_ref(elements)).1
 }
 
-/// The same of the nearest of some pairs of elements, and which it is: exactly the nearest, or the first of those.
+/// Where the nearest of some pairs of elements are closest, and which pair it is: exactly the
+/// nearest, or the first of equally near ones.
 fn closest_of(pairs: &[Primitives]) -> (usize, Closest) {
     let coordinates = pairs.iter().flat_map(|pair| pair.corners().as_flattened());
     let [unit, _] = powers_of_all(coordinates);
@@ -145,22 +141,14 @@ fn closest_of(pairs: &[Primitives]) -> (usize, Closest) {
     };
     let (square, exponent) = quotient(&feet.over, &feet.under);
     // An even exponent: its root is a power of two.
-    let (square, exponent) = if exponent % 2 == 0 {
-        (square, exponent)
-    } else {
-        (2.0 * square, exponent - 1)
-    };
+    let odd = exponent.rem_euclid(2);
+    let length = scaled(square, odd).sqrt();
     let mut closest = Closest {
         along: feet.along,
         ..Closest::default()
     };
     if !feet.over.is_zero() {
-        let distance = scaled(square.sqrt(), exponent / 2 + unit);
-        closest.distance = if distance == 0.0 {
-            smallest()
-        } else {
-            distance
-        };
+        closest.distance = scaled(length, (exponent - odd) / 2 + unit).max(smallest());
         closest.direction = unit_vector(&feet.way);
     }
     (which, closest)
@@ -183,7 +171,24 @@ impl Primitives {
     }
 }
 
-/// Shows `found` all feet of elements, in units of 2^unit: some distance each, the least among them.
+/// Shows `found` all feet of elements, in units of 2^unit: some distance each, the least among
+/// them.
+///
+/// ```text
+/// point p, edge a + s e, t = p - a      s = t.e / e.e within (0, 1): |t x e|^2 / e.e, else an end
+/// point and face, n = e1 x e2           inside by three signs: (n.t)^2 / n.n
+/// edges, n = e x f, t = a - b           s = -(t x f).n / n.n, and so the other, within [0, 1]:
+///                                       (n.t)^2 / n.n
+/// ```
+///
+/// Where n is zero, the face is an edge or a point, and two parallel edges are as near as an end of
+/// one is to the other.
+///
+/// With b bits a coordinate, a difference has b + 1. A normal has 2 (b + 1) + 1 in each of three,
+/// and its square 4 (b + 1) + 4; the square of a volume has 6 (b + 1) + 6. Two quotients of such
+/// are compared by products of 10 (b + 1) + 10 bits. A quotient and the square of a distance are by
+/// as few, for that is only done where they are nearly equal. So up to 60 bits a coordinate nothing
+/// is allocated.
 fn feet(elements: &Primitives, unit: i32, found: &mut dyn FnMut(Feet)) {
     let [p, q, r, s] = elements.corners().map(|corner| in_units(&corner, unit));
     match elements {
@@ -218,7 +223,8 @@ fn feet(elements: &Primitives, unit: i32, found: &mut dyn FnMut(Feet)) {
     }
 }
 
-/// A point and a segment from a to b, which may be a point. `is_second`: the point is of the second element.
+/// A point and a segment from a to b, which may be a point. `is_second`: the point is of the second
+/// element.
 fn of_end(
     p: &Vector,
     a: &Vector,
@@ -229,7 +235,7 @@ fn of_end(
 ) {
     let (e, t) = (minus(b, a), minus(p, a));
     let (whole, part) = (dot(&e, &e), dot(&t, &e));
-    let one = Integer::new(1.0, 0);
+    let one = Integer::from(1);
     let (over, under, way, at) = if part.sign() <= 0 {
         (dot(&t, &t), one, t, 0.0)
     } else if whole.is_at_most(&part) {
@@ -245,16 +251,12 @@ fn of_end(
         over,
         under,
         along: along(at),
-        way: if is_second {
-            way.map(Integer::negated)
-        } else {
-            way
-        },
+        way: turned(way, is_second),
     });
 }
 
-/// The insides of a face and a point, or of two edges: with a common normal, and how far along times its square; if each is within 0
-/// and the whole, and of a triangle their sum too.
+/// The insides of a face and a point, or of two edges: with a common normal, and how far along
+/// times its square. Shown if each is within 0 and the whole, and of a triangle their sum too.
 fn of_insides(
     n: &Vector,
     t: &Vector,
@@ -274,14 +276,19 @@ fn of_insides(
     let height = dot(n, t);
     found(Feet {
         over: height.times(&height),
-        way: if height.sign() < 0 {
-            n.clone().map(Integer::negated)
-        } else {
-            n.clone()
-        },
+        way: turned(n.clone(), height.sign() < 0),
         along: [fraction(p, &whole), fraction(q, &whole)],
         under: whole,
     });
+}
+
+/// A way, or the opposite one.
+fn turned(way: Vector, is_opposite: bool) -> Vector {
+    if is_opposite {
+        way.map(Integer::negated)
+    } else {
+        way
+    }
 }
 
 /// A quotient from 0 to 1.
@@ -290,33 +297,16 @@ fn fraction(over: &Integer, under: &Integer) -> f64 {
     scaled(m, e).min(1.0)
 }
 
-/// m 2^e, rounded once; zero where it is too small for a normal number and the thread flushes others.
-fn scaled(m: f64, e: i32) -> f64 {
-    let power = |e: i32| f64::from_bits(u64::from((1023 + e).unsigned_abs()) << 52);
-    match e {
-        -1000..=1000 => m * power(e),
-        // Two steps: the first is exact.
-        ..-1000 => m * power(-1000) * power((e + 1000).max(-1000)),
-        _ => m * power(1000) * power((e - 1000).min(1000)),
-    }
-}
-
 /// The unit vector of a way, or zero.
 fn unit_vector(way: &Vector) -> Point {
-    let parts = way.each_ref().map(Integer::approximately);
-    let exponents = parts.iter().filter(|(m, _)| *m != 0.0).map(|&(_, e)| e);
-    let Some(largest) = exponents.max() else {
-        return [0.0; 3];
-    };
-    let [x, y, z] = parts.map(|(m, e)| {
-        if m == 0.0 {
-            0.0
-        } else {
-            scaled(m, e - largest)
-        }
-    });
-    let length = (x * x + y * y + z * z).sqrt();
-    [x / length, y / length, z / length]
+    let way = in_proportion(way);
+    let length = dot(&way, &way).sqrt();
+    // Of a way that is not zero one component is 1 at least.
+    if length == 0.0 {
+        way
+    } else {
+        way.map(|x| x / length)
+    }
 }
 
 #[cfg(test)]

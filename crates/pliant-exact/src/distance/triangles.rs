@@ -1,11 +1,17 @@
-//! How far apart two triangles are: nothing if they intersect, else as far as the nearest of their fifteen pairs of elements.
+//! How far apart two triangles are: nothing if they intersect, else as far as their nearest
+//! elements.
 //!
-//! Whether they intersect is decided as everywhere. Then they have a point in common: where elements touch, or where an edge goes through
-//! the inside of the other triangle. It is computed in plain arithmetic first, and how far the points that were found are apart says
-//! how good they are; where that is too far, as for slivers, once more in integers.
+//! Whether they intersect is decided as everywhere. Then they have a point in common: where
+//! elements touch, or where an edge goes through the inside of the other triangle. It is computed
+//! in plain arithmetic first. How far apart the points are that were found says how good they are;
+//! if that is too far, as for slivers, integers find better ones.
 
+use super::super::element_pairs::in_triangle;
+use super::super::float::{U, power};
 use super::super::integer::powers_of_all;
-use super::super::vector::{cross, dot, in_units, minus, rounded};
+use super::super::ring::Ring;
+use super::super::triangles::edge;
+use super::super::vector::{cross, dot, in_units, minus};
 use super::super::{
     ELEMENT_PAIRS, FIRST_OF_EDGES, Point, Precision, Triangle, barycentric, four_corners,
     intersect, is_swapped, on_edge, reference,
@@ -15,29 +21,36 @@ use super::{Primitives, are_within_distance, closest, closest_of, fraction};
 /// Where two triangles are closest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TrianglesClosest {
-    /// How far apart they are; 0 if they intersect.
+    /// How far apart they are, in the unit of the coordinates; 0 if they intersect.
     pub distance: f64,
-    /// From the second to the first, of length 1 but for rounding; zero if the distance is.
+    /// From the second to the first, of length 1 within rounding; zero if the distance is.
     pub direction: Point,
-    /// What each corner of either triangle counts in its point.
+    /// The weights of the corners of either triangle in its point.
     pub barycentric: [[f64; 3]; 2],
 }
 
-/// Points in common that were computed may be so far apart, as a part of the largest coordinate of any difference of corners: 2^-40.
-const APART: f64 = f64::from_bits((1023 - 40) << 52);
+/// Points in common that were computed may be so far apart, as a part of the largest coordinate of
+/// any difference of corners: 2^-40.
+const APART: f64 = power(-40);
 
-/// Some points of two triangles: a pair of elements, how far along them the points are, and how far apart they are at most.
+/// Some points of two triangles: a pair of elements, how far along them the points are, and how far
+/// they are apart at most.
 #[derive(Clone, Copy, Debug)]
 pub struct SomePoints {
-    /// The number of the pair of elements.
+    /// The number of the pair of elements, below [`ELEMENT_PAIRS`](crate::ELEMENT_PAIRS).
     pub which: usize,
     /// How far along them the points are, as in [`Closest`](super::Closest).
     pub along: [f64; 2],
-    /// How far apart they are at most.
+    /// How far apart they are at most, in the unit of the coordinates; infinite if nothing is
+    /// known.
     pub apart: f64,
 }
 
-/// Whether two triangles are at most so far apart. Exact; the distance is at least 0.
+/// Whether two triangles are at most a distance apart. Exact.
+///
+/// The distance is at least 0, in the unit of the coordinates, which are [in
+/// range](crate::is_in_range). Cost: up to fifteen pairs of elements in integers, tens of
+/// microseconds.
 #[cold]
 pub fn are_triangles_within(
     precision: Precision,
@@ -49,9 +62,11 @@ pub fn are_triangles_within(
         || (0..ELEMENT_PAIRS).any(|which| are_within_distance(&pair(which, a, b), distance))
 }
 
-/// Where two triangles are closest, with an error of less than 2^-48 of distance and direction; where they intersect, points in common
-/// that are no further apart than 2^-40 of the largest coordinate of any difference of corners. `known` are some points, which need not be
-/// good ones.
+/// Where two triangles are closest, with an error of less than 2^-48 of distance and direction.
+///
+/// Where they intersect, the points are no further apart than 2^-40 of the largest coordinate of
+/// any difference of corners. `known` are some points, which need not be good ones. Coordinates are
+/// [in range](crate::is_in_range), distances in their unit. Cost: tens of microseconds.
 #[cold]
 pub fn closest_triangles(
     precision: Precision,
@@ -98,70 +113,61 @@ fn pair(which: usize, a: &Triangle, b: &Triangle) -> Primitives {
 }
 
 fn largest_difference(a: &Triangle, b: &Triangle) -> f64 {
-    let mut largest = 0.0_f64;
-    for axis in 0..3 {
-        let of_all = || a.iter().chain(b).map(|corner| corner[axis]);
-        let most = of_all().fold(f64::NEG_INFINITY, f64::max);
-        let least = of_all().fold(f64::INFINITY, f64::min);
-        largest = largest.max(most - least);
-    }
-    largest
+    let corners = || a.iter().chain(b);
+    let differences = corners().flat_map(|p| corners().flat_map(|q| minus(p, q)));
+    differences.fold(0.0, f64::max)
 }
 
-/// An edge of either triangle, and the other triangle: whose edge it is, which of its three, the ends.
+/// An edge of either triangle, and the other triangle: whose edge it is, which of its three, the
+/// ends.
 fn edges_and_triangles<'t>(
     a: &'t Triangle,
     b: &'t Triangle,
 ) -> impl Iterator<Item = (bool, usize, [Point; 2], &'t Triangle)> {
     let of_one = |one: &'t Triangle, other: &'t Triangle, is_second: bool| {
-        (0..3).map(move |edge| (is_second, edge, [one[edge], one[(edge + 1) % 3]], other))
+        (0..3).map(move |i| (is_second, i, edge(one, i), other))
     };
     of_one(a, b, false).chain(of_one(b, a, true))
 }
 
-/// What corners count in a point of an edge and in one of a triangle, those of the first triangle first.
+/// The weights of corners in a point of an edge and in one of a triangle, the first triangle's
+/// first.
 fn points(is_second: bool, edge: usize, t: f64, [u, v]: [f64; 2]) -> [[f64; 3]; 2] {
-    let on_edge = on_edge(edge, t);
-    let of_triangle = [(1.0 - u - v).max(0.0), u, v];
-    if is_second {
-        [of_triangle, on_edge]
-    } else {
-        [on_edge, of_triangle]
-    }
+    let [p, q] = [on_edge(edge, t), in_triangle([u, v])];
+    if is_second { [q, p] } else { [p, q] }
 }
 
-/// Where an edge goes through the other triangle, in plain arithmetic: points of both that are nearly one, and how far apart they are at
-/// most; none if no edge does.
+/// Where an edge goes through the other triangle, in plain arithmetic; none if no edge does.
+/// Returns points of both that are nearly one, and how far they are apart at most.
 ///
-/// The way between them is r = (p - a) + t (q - p) - u (b - a) - v (c - a). Let S be the sum of the absolute values of all coordinates of
-/// these four differences. A difference, a product and three sums round each coordinate, the length adds 4 roundings of itself: less than
-/// 20 2^-53 S in all, and 2^-1020 where numbers are below the normal range, which is no more if S is at least 2^-200.
+/// The way between them is r = (p - a) + t (q - p) - u (b - a) - v (c - a). Let S be the sum of the
+/// absolute values of all coordinates of these four differences. A difference, a product and three
+/// sums round each coordinate; the length adds 4 roundings of itself. That is less than 20 2^-53 S
+/// in all. Where numbers are below the normal range it is 2^-1020 besides, which is no more if S is
+/// at least 2^-200.
 fn crossing(a: &Triangle, b: &Triangle) -> Option<([[f64; 3]; 2], f64)> {
     let mut nearest: Option<([[f64; 3]; 2], f64)> = None;
     for (is_second, edge, [p, q], [c0, c1, c2]) in edges_and_triangles(a, b) {
-        use rounded::{cross as normal, dot as product, minus as difference};
-        let (e, f) = (difference(c1, c0), difference(c2, c0));
-        let (from, way) = (difference(&p, c0), difference(&q, &p));
-        let n = normal(&e, &f);
-        let [height, rise] = [product(&n, &from), product(&n, &way)];
-        let square = product(&n, &n);
+        let (e, f) = (minus(c1, c0), minus(c2, c0));
+        let (from, way) = (minus(&p, c0), minus(&q, &p));
+        let n = cross(&e, &f);
+        let [height, rise] = [dot(&n, &from), dot(&n, &way)];
+        let square = dot(&n, &n);
         if rise == 0.0 || square == 0.0 {
             continue;
         }
         let t = (0.0 - height / rise).clamp(0.0, 1.0);
         let at: Point = std::array::from_fn(|axis| from[axis] + t * way[axis]);
-        let u = (product(&normal(&at, &f), &n) / square).clamp(0.0, 1.0);
-        let v = (product(&normal(&e, &at), &n) / square)
-            .max(0.0)
-            .min(1.0 - u);
+        let u = (dot(&cross(&at, &f), &n) / square).clamp(0.0, 1.0);
+        let v = (dot(&cross(&e, &at), &n) / square).max(0.0).min(1.0 - u);
         let r: Point = std::array::from_fn(|axis| at[axis] - u * e[axis] - v * f[axis]);
         let sum: f64 = [from, way, e, f]
             .as_flattened()
             .iter()
             .map(|x| x.abs())
             .sum();
-        let apart = product(&r, &r).sqrt() + 20.0 * (f64::EPSILON / 2.0) * sum;
-        let is_known = sum >= f64::powi(0.5, 200);
+        let apart = dot(&r, &r).sqrt() + 20.0 * U * sum;
+        let is_known = sum >= power(-200);
         if is_known && nearest.is_none_or(|(_, known)| apart < known) {
             nearest = Some((points(is_second, edge, t, [u, v]), apart));
         }
@@ -169,7 +175,10 @@ fn crossing(a: &Triangle, b: &Triangle) -> Option<([[f64; 3]; 2], f64)> {
     nearest
 }
 
-/// A point in common of triangles that intersect, by integers.
+/// A point in common of triangles that intersect, by the weights of either's corners; in integers.
+///
+/// Each weight is within 2^-48. Of triangles that do not intersect the answer says nothing. Cost:
+/// tens of microseconds.
 pub fn point_in_common(a: &Triangle, b: &Triangle) -> [[f64; 3]; 2] {
     let touching = (0..ELEMENT_PAIRS).find(|&which| are_within_distance(&pair(which, a, b), 0.0));
     if let Some(which) = touching {
@@ -188,11 +197,12 @@ pub fn point_in_common(a: &Triangle, b: &Triangle) -> [[f64; 3]; 2] {
     [[1.0, 0.0, 0.0]; 2]
 }
 
-/// Where an edge p q crosses a triangle, whose plane it is not in: how far along the edge, and along both sides of the first corner. Each
-/// within 2^-48 of the exact one.
+/// Where an edge p q crosses a triangle whose plane it is not in: how far along the edge, and along
+/// both sides of the first corner. Each is within 2^-48 of the exact one.
 ///
-/// With n normal to the triangle, the point is at the part t = h / w of the way, where h = n.(c0 - p) and w = n.(q - p). Times w it is
-/// x = w (p - c0) + h (q - p) from the first corner, and u = (x x f).n / (w n.n): 7 (b + 1) + 7 bits for coordinates of b.
+/// Let n be normal to the triangle, h = n.(c0 - p) and w = n.(q - p). The point is at the part t =
+/// h / w of the way. Times w it is x = w (p - c0) + h (q - p) from the first corner, and u = (x x
+/// f).n / (w n.n). That is 7 (b + 1) + 7 bits for coordinates of b.
 fn exact_crossing(all: &[Point; 5], unit: i32) -> [f64; 3] {
     let [p, q, c0, c1, c2] = all.map(|corner| in_units(&corner, unit));
     let (e, f) = (minus(&c1, &c0), minus(&c2, &c0));

@@ -1,42 +1,19 @@
-//! The same decision in double precision, where rounding cannot change it: most pairs, in some hundred nanoseconds.
+//! The first contact in double precision, where rounding cannot change it: most pairs.
 //!
-//! [0, 1] is halved, the earlier half first, until each part is known to have no contact or to have one. On a part [a, b] a polynomial is a
-//! mean of its Bernstein coefficients there, with weights that are not negative; so where all have one sign, it has it throughout. Of a
-//! part it is enough to know one of these (see `motion` for the signs that decide):
-//!
-//! ```text
-//! the determinant has one sign, and is not zero                                        no contact
-//! on an axis all corners of the polygon are on one side                                no contact
-//! on an axis two of the q_i x q_(i+1) have opposite signs throughout                   no contact
-//! on an axis all q_i x q_(i+1) have one sign throughout, and the determinant
-//! has opposite signs at a and b                                                        contact between a and b
-//! ```
-//!
-//! Parts are cut at fractions of two, as the cells of a grid are; a part with a contact that is within one cell names the cell, and all
-//! that is earlier was free of contact. Ends at which a sign is not certain, and what has taken many parts, are left to integers.
-//!
-//! Mostly the determinant soon has one root in a part, or none: coefficients change their sign as many times as there are roots, or more. Of
-//! one root the cell is guessed by Newton's method; signs at its ends prove that it is in there, and the rest of the part is of no interest.
-//!
-//! # What is certain
-//!
-//! Let u = 2^-53, and M the larger magnitude of a component of a corner q of the polygon at both ends of the motion. Components are
-//! differences of coordinates, off by u of themselves. a and 1 - a are exact, so q(a) = (1 - a) q(0) + a q(1) is off by less than 4 u M.
-//! With that, each Bernstein coefficient of an axis of p x q, products of such, is off by less than 12 u (M_px M_qy + M_py M_qx), to first
-//! order. Let P be the sum of the six products of components of three corners that make a determinant, of their M. A determinant at ends of
-//! the motion is off by 8 u P (three differences, a product and a difference, a product and two sums), a coefficient, the mean of three
-//! such, by 11 u P, and one of a part by 3 u P more for each halving; after at most 44 of them by 143 u P. A value at a fraction, by
-//! three rounds of means of two with weights that are exact, is off by 6 u P more than these. Beyond first order these are
-//! less than 2^-40 of themselves larger.
-//!
-//! What is lost below the normal range, even where subnormal numbers are flushed to zero, is at most 2^-1021 a step, times components below
-//! 2^130: the allowances end with a constant that is far above that.
+//! [0, 1] is halved, the earlier half first, until each part is known to have no contact or to have
+//! one. In a part with one root of the determinant, Newton's method guesses the cell of the root;
+//! signs at its ends prove it. Signs over a part are the common signs of Bernstein coefficients (de
+//! Casteljau). An answer is that of `first_contact`, or none; the bounds are at `OF_POINT`. Ends at
+//! which a sign is not certain, and what has taken many parts, are left to integers.
 
 use super::super::Point;
+use super::super::float::{U, common_sign, power, sign_beyond};
+use super::super::vector::{cross, cross_on, determinant, minus};
 use super::grid::Grid;
 use super::moving::Moving;
+use std::array::from_fn;
 
-/// What is certain of a pair.
+/// The first contact of a pair, as far as it is certain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Certain {
     /// They do not meet in [0, 1].
@@ -47,7 +24,24 @@ pub enum Certain {
     Nothing,
 }
 
-const U: f64 = f64::EPSILON / 2.0;
+// Errors, each in units of u = 2^-53 of the larger magnitudes at both ends of the motion.
+//
+// Let M be the larger magnitude of a component of a corner q of the polygon at both ends.
+// Components are differences of coordinates, off by u of themselves. Both a and 1 - a are exact, so
+// q(a) = (1 - a) q(0) + a q(1) is off by less than 4 u M. Consider each Bernstein coefficient of an
+// axis of p x q, a sum of products of such. It is off by less than 12 u (M_px M_qy + M_py M_qx), to
+// first order.
+//
+// Let P be the sum of the six products of components of three corners that make a determinant, of
+// their M. A determinant at ends of the motion is off by 8 u P (three differences, a product and a
+// difference, a product and two sums). A coefficient, the mean of three such, is off by 11 u P. One
+// of a part is off by 3 u P more for each halving; after at most 44 of them by 143 u P. A value at
+// a fraction takes three rounds of means of two, with weights that are exact: 6 u P more. Beyond
+// first order these are less than 2^-40 of themselves larger.
+//
+// What is lost below the normal range is at most 2^-1021 a step, times components below 2^130. That
+// holds even where subnormal numbers are flushed to zero. The allowances end with a constant that
+// is far above that.
 const OF_POINT: f64 = 4.0 * U;
 const OF_CROSS: f64 = 16.0 * U;
 const OF_DETERMINANT: f64 = 256.0 * U;
@@ -57,12 +51,8 @@ const LOST_OF_DETERMINANT: f64 = power(-700);
 
 /// Halvings of [0, 1], one in the other; times that many times halved are exact.
 const DEEPEST: usize = 44;
-/// So many parts are looked at; a crossing takes about 25.
+/// The number of parts that are looked at, at most; a crossing takes about 25.
 const MOST_PARTS: usize = 200;
-
-pub(super) const fn power(exponent: i32) -> f64 {
-    f64::from_bits((1023 + exponent).unsigned_abs() as u64 * (1 << 52))
-}
 
 /// A polygon's corners at one time.
 pub(super) type Corners = [Point; 4];
@@ -80,34 +70,55 @@ struct Part {
     is_hard: bool,
 }
 
-/// What is known of a part if its determinant has one root in it.
+/// The state of a part that may have one root of its determinant.
 enum OneRoot {
     Decided(Certain),
     Undecided,
     IsNotOne,
 }
 
-/// The difference of two elements at both ends of the motion, and the largest magnitudes of each component.
+/// The difference of two elements at both ends of the motion, and the largest magnitudes of each
+/// component.
 pub(super) struct Polygon {
-    count: usize,
+    pub(super) count: usize,
     ends: [Corners; 2],
     most: Corners,
 }
 
-/// What is certain of a pair, by cells of a grid. What surely is after `until` may be left out; that is 0 or a multiple of 2^-44.
+/// The first contact of a pair, by cells of a grid, as far as it is certain. What surely is after
+/// `until` may be left out; that is 0 or a multiple of 2^-44.
+///
+/// [0, 1] is halved, the earlier half first, until each part is known to have no contact or to have
+/// one. On a part [a, b] a polynomial is a mean of its Bernstein coefficients there, with weights
+/// that are not negative. So where all have one sign, it has it throughout. Of a part it is enough
+/// to know one of these (see `motion` for the signs that decide):
+///
+/// ```text
+/// the determinant has one sign, and is not zero                       no contact
+/// on an axis all corners of the polygon are on one side               no contact
+/// on an axis two of the q_i x q_(i+1) have opposite signs throughout  no contact
+/// on an axis all q_i x q_(i+1) have one sign throughout, and the
+/// determinant has opposite signs at a and b                           contact between a and b
+/// ```
+///
+/// Parts are cut at fractions of two, as the cells of a grid are. A part with a contact that is
+/// within one cell names the cell, and all that is earlier was free of contact. Ends at which a
+/// sign is not certain, and what has taken many parts, are left to integers.
+///
+/// Mostly the determinant soon has one root in a part, or none: coefficients change their sign as
+/// many times as there are roots, or more. Of one root the cell is guessed by Newton's method.
+/// Signs at its ends prove that it is in there, and the rest of the part is of no interest.
 #[inline]
 pub(super) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
     let polygon = Polygon::new(moving);
     let (determinant, error) = polygon.determinant();
-    if one_sign(determinant, error) {
+    if common_sign(determinant, error) != 0 {
         return Certain::Never;
     }
     let whole = Part {
-        low: 0.0,
         high: 1.0,
         determinant,
-        is_inside: false,
-        is_hard: false,
+        ..Part::default()
     };
     // Most are decided here, before there is room for parts.
     if let OneRoot::Decided(certain) = polygon.at_one_root(&whole, error, grid, until) {
@@ -122,9 +133,10 @@ pub(super) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
         };
         count = last;
         let mut part = parts[last];
-        // What meets in a part but the first does so after its beginning; in the first perhaps at it.
+        // What meets in a part but the first does so after its beginning; in the first perhaps at
+        // it.
         let is_late = part.low >= until && part.low > 0.0;
-        if is_late || one_sign(part.determinant, error) {
+        if is_late || common_sign(part.determinant, error) != 0 {
             continue;
         }
         if !part.is_hard {
@@ -162,7 +174,7 @@ pub(super) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
         if part.high - part.low <= power(-(DEEPEST as i32)) {
             return Certain::Nothing;
         }
-        let [earlier, later] = halves(part.determinant);
+        let [earlier, later] = divided(part.determinant, 0.5);
         parts[count] = Part {
             low: middle,
             determinant: later,
@@ -178,7 +190,8 @@ pub(super) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
     Certain::Nothing
 }
 
-/// About the root of a polynomial that has one, by Newton's method, or halving where that leaves the interval in which it is.
+/// About the root of a polynomial that has one, by Newton's method, or halving where that leaves
+/// the interval in which it is.
 fn root_of(coefficients: [f64; 4], enough: f64) -> f64 {
     let [first, _, _, last] = coefficients;
     let [mut low, mut high] = [0.0, 1.0];
@@ -204,38 +217,30 @@ fn root_of(coefficients: [f64; 4], enough: f64) -> f64 {
 }
 
 /// The value of a polynomial, of which these are the Bernstein coefficients, and its slope.
-fn value_at([a, b, c, d]: [f64; 4], t: f64) -> (f64, f64) {
+fn value_at(coefficients: [f64; 4], t: f64) -> (f64, f64) {
+    let [[_, _, abc, value], [_, bcd, ..]] = divided(coefficients, t);
+    (value, 3.0 * (bcd - abc))
+}
+
+/// The Bernstein coefficients of the parts before and after a time: means of means (de Casteljau).
+/// At a half the products are exact, so that a mean is rounded once.
+#[inline]
+fn divided([a, b, c, d]: [f64; 4], t: f64) -> [[f64; 4]; 2] {
     let s = 1.0 - t;
     let mean = |x: f64, y: f64| s * x + t * y;
-    let (ab, bc, cd) = (mean(a, b), mean(b, c), mean(c, d));
-    let (abc, bcd) = (mean(ab, bc), mean(bc, cd));
-    (mean(abc, bcd), 3.0 * (bcd - abc))
-}
-
-/// Whether all are beyond an error on the same side of zero.
-fn one_sign(values: [f64; 4], error: f64) -> bool {
-    values.iter().all(|&x| x > error) || values.iter().all(|&x| x < -error)
-}
-
-/// The Bernstein coefficients of both halves of a part.
-fn halves([a, b, c, d]: [f64; 4]) -> [[f64; 4]; 2] {
-    let mean = |x: f64, y: f64| 0.5 * (x + y);
     let (ab, bc, cd) = (mean(a, b), mean(b, c), mean(c, d));
     let (abc, bcd) = (mean(ab, bc), mean(bc, cd));
     let all = mean(abc, bcd);
     [[a, ab, abc, all], [all, bcd, cd, d]]
 }
 
-/// The Bernstein coefficients of the part before a time.
-fn before([a, b, c, d]: [f64; 4], t: f64) -> [f64; 4] {
-    let s = 1.0 - t;
-    let mean = |x: f64, y: f64| s * x + t * y;
-    let (ab, bc, cd) = (mean(a, b), mean(b, c), mean(c, d));
-    let (abc, bcd) = (mean(ab, bc), mean(bc, cd));
-    [a, ab, abc, mean(abc, bcd)]
+/// Corners made component by component of two others.
+#[inline]
+fn of_both(p: &Corners, q: &Corners, made: impl Fn(f64, f64) -> f64) -> Corners {
+    from_fn(|corner| from_fn(|axis| made(p[corner][axis], q[corner][axis])))
 }
 
-/// What cross products and corners say about a part.
+/// The sides of a part on which corners are, and edges turn.
 enum Sides {
     Apart,
     Inside,
@@ -244,20 +249,14 @@ enum Sides {
 
 impl Polygon {
     pub(super) fn new(moving: &Moving) -> Self {
-        let minus = |p: Point, q: Point| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
         let ends = moving.corners.map(|[p, a, b, c]| {
             if moving.are_edges {
-                [minus(p, b), minus(a, b), minus(a, c), minus(p, c)]
+                [[p, b], [a, b], [a, c], [p, c]].map(|[p, q]| minus(&p, &q))
             } else {
-                [minus(a, p), minus(b, p), minus(c, p), [0.0; 3]]
+                [minus(&a, &p), minus(&b, &p), minus(&c, &p), [0.0; 3]]
             }
         });
-        let mut most = [[0.0; 3]; 4];
-        for (corner, most) in most.iter_mut().enumerate() {
-            for (axis, most) in most.iter_mut().enumerate() {
-                *most = ends[0][corner][axis].abs().max(ends[1][corner][axis].abs());
-            }
-        }
+        let most = of_both(&ends[0], &ends[1], |p, q| p.abs().max(q.abs()));
         Self {
             count: if moving.are_edges { 4 } else { 3 },
             ends,
@@ -268,11 +267,7 @@ impl Polygon {
     /// The Bernstein coefficients of the determinant of the first three corners, and their error.
     fn determinant(&self) -> ([f64; 4], f64) {
         let [start, end] = &self.ends;
-        let of = |p: &Point, q: &Point, r: &Point| {
-            p[0] * (q[1] * r[2] - q[2] * r[1])
-                + p[1] * (q[2] * r[0] - q[0] * r[2])
-                + p[2] * (q[0] * r[1] - q[1] * r[0])
-        };
+        let of = |p: &Point, q: &Point, r: &Point| determinant(q, r, p);
         let [p, q, r, _] = start;
         let [p1, q1, r1, _] = end;
         let coefficients = [
@@ -288,25 +283,16 @@ impl Polygon {
         (coefficients, sum * OF_DETERMINANT + LOST_OF_DETERMINANT)
     }
 
-    pub(super) fn count(&self) -> usize {
-        self.count
-    }
-
     /// A corner at both ends of the motion, and the larger magnitudes of its components.
     pub(super) fn corner(&self, i: usize) -> (Point, Point, Point) {
         (self.ends[0][i], self.ends[1][i], self.most[i])
     }
 
-    /// Where the corners are at a time; each component is off by 4 u of the larger one at both ends.
+    /// Where the corners are at a time; each component is off by 4 u of the larger one at both
+    /// ends.
     pub(super) fn at(&self, t: f64) -> Corners {
         let s = 1.0 - t;
-        let mut at = [[0.0; 3]; 4];
-        for (corner, at) in at.iter_mut().enumerate() {
-            for (axis, at) in at.iter_mut().enumerate() {
-                *at = s * self.ends[0][corner][axis] + t * self.ends[1][corner][axis];
-            }
-        }
-        at
+        of_both(&self.ends[0], &self.ends[1], |p, q| s * p + t * q)
     }
 
     /// Where the corners are at both ends of a part.
@@ -314,7 +300,8 @@ impl Polygon {
         [self.at(low), self.at(high)]
     }
 
-    /// Whether on an axis all corners seem to be on one side at the start, and none beyond the other at a time: worth an exact look.
+    /// Whether on an axis all corners seem to be on one side at the start, and none beyond the
+    /// other at a time. Then an exact look is worth it.
     pub(super) fn is_perhaps_apart(&self, axis: usize, t: f64) -> bool {
         let s = 1.0 - t;
         let is_beyond = |side: f64| {
@@ -327,32 +314,32 @@ impl Polygon {
         is_beyond(1.0) || is_beyond(-1.0)
     }
 
-    /// The sign that a component of a corner has throughout a part, if that is certain and not zero.
+    /// The sign that a component of a corner has throughout a part, if that is certain and not
+    /// zero.
     pub(super) fn corner_sign(&self, [first, last]: &[Corners; 2], i: usize, axis: usize) -> i8 {
         let error = self.most[i][axis] * OF_POINT + LOST_OF_POINT;
-        let [p, q] = [first[i][axis], last[i][axis]];
-        i8::from(p > error && q > error) - i8::from(p < -error && q < -error)
+        common_sign([first[i][axis], last[i][axis]], error)
     }
 
-    /// The sign that the component of corner i x corner i + 1 on an axis has throughout a part, if that is certain and not zero.
+    /// The sign that a component of corner i x corner i + 1 has throughout a part, if that is
+    /// certain and not zero.
     pub(super) fn cross_sign(&self, [first, last]: &[Corners; 2], i: usize, axis: usize) -> i8 {
         let j = if i + 1 < self.count { i + 1 } else { 0 };
-        let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
-        let cross = |p: &Point, q: &Point| p[x] * q[y] - p[y] * q[x];
+        let cross = |p: &Point, q: &Point| cross_on(axis, p, q);
         let turns = [
             cross(&first[i], &first[j]),
             0.5 * (cross(&first[i], &last[j]) + cross(&last[i], &first[j])),
             cross(&last[i], &last[j]),
         ];
+        let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
         let [p, q] = [&self.most[i], &self.most[j]];
         let error = (p[x] * q[y] + p[y] * q[x]) * OF_CROSS + LOST_OF_CROSS;
-        i8::from(turns.iter().all(|&turn| turn > error))
-            - i8::from(turns.iter().all(|&turn| turn < -error))
+        common_sign(turns, error)
     }
 
-    /// What is certain of a part whose determinant has one root, by the cell that it is in.
+    /// The contact in a part whose determinant has one root, by the cell that it is in.
     fn at_one_root(&self, part: &Part, error: f64, grid: Grid, until: f64) -> OneRoot {
-        let sign = |x: f64| i8::from(x > error) - i8::from(x < -error);
+        let sign = |x: f64| sign_beyond(x, error);
         let [first, second, third, last] = part.determinant.map(sign);
         // Whatever the sign of one in the middle is, there is one change.
         if first * last >= 0 || second != first && third != last {
@@ -371,7 +358,8 @@ impl Polygon {
         let guess = part.low + guess * length;
         let cell = [0.0, grid.spacing].map(|more| grid.down(guess) + more);
         let has_it = |ends: [f64; 2]| ends.map(|t| sign(value(t))) == [first, last];
-        // It may be in the cell beside that of the guess, or at the end of one, where no sign is certain.
+        // It may be in the cell beside that of the guess, or at the end of one, where no sign is
+        // certain.
         for beside in [0.0, -grid.spacing, grid.spacing] {
             let ends = cell.map(|t| t + beside);
             if ends[0] >= part.low && ends[1] <= part.high && has_it(ends) {
@@ -392,12 +380,12 @@ impl Polygon {
         })
     }
 
-    /// Whether the determinant surely has one root at most after the start and up to a time, which is a multiple of 2^-44, and none at the
-    /// start.
+    /// Whether the determinant surely has no root at the start, and one at most after it and up to
+    /// a time. The time is a multiple of 2^-44.
     pub(super) fn has_one_root_until(&self, until: f64) -> bool {
         let (determinant, error) = self.determinant();
-        let [first, second, third, last] =
-            before(determinant, until).map(|x| i8::from(x > error) - i8::from(x < -error));
+        let [before, _] = divided(determinant, until);
+        let [first, second, third, last] = before.map(|x| sign_beyond(x, error));
         // Whatever the signs are that are not certain, there is one change.
         let is_late = second == first && (third == first || last == -first);
         let is_early = third == -first && last == -first;
@@ -413,37 +401,25 @@ impl Polygon {
             }
         }
         let axis = steepest(&part);
-        let [mut positive, mut negative] = [0; 2];
+        let [mut is_any_negative, mut is_any_unknown, mut is_any_positive] = [false; 3];
         for i in 0..self.count {
             let sign = self.cross_sign(&part, i, axis);
-            positive += usize::from(sign > 0);
-            negative += usize::from(sign < 0);
+            is_any_negative |= sign < 0;
+            is_any_unknown |= sign == 0;
+            is_any_positive |= sign > 0;
         }
-        if positive > 0 && negative > 0 {
-            Sides::Apart
-        } else if positive == self.count || negative == self.count {
-            Sides::Inside
-        } else {
-            Sides::Unknown
+        match [is_any_negative, is_any_unknown, is_any_positive] {
+            [true, _, true] => Sides::Apart,
+            [_, false, _] => Sides::Inside,
+            _ => Sides::Unknown,
         }
     }
 }
 
 /// The axis on which the polygon, in the middle of a part, is seen largest, or about so.
 fn steepest([first, last]: &[Corners; 2]) -> usize {
-    let mut middle = [[0.0; 3]; 3];
-    for (corner, middle) in middle.iter_mut().enumerate() {
-        for (axis, middle) in middle.iter_mut().enumerate() {
-            *middle = first[corner][axis] + last[corner][axis];
-        }
-    }
-    let [a, b, c] = middle;
-    let [e, f] = [b, c].map(|p| [p[0] - a[0], p[1] - a[1], p[2] - a[2]]);
-    let normal = [
-        (e[1] * f[2] - e[2] * f[1]).abs(),
-        (e[2] * f[0] - e[0] * f[2]).abs(),
-        (e[0] * f[1] - e[1] * f[0]).abs(),
-    ];
+    let [a, b, c, _] = of_both(first, last, |p, q| p + q);
+    let normal = cross(&minus(&b, &a), &minus(&c, &a)).map(f64::abs);
     let mut steepest = 0;
     for axis in 1..3 {
         if normal[axis] > normal[steepest] {

@@ -1,47 +1,52 @@
-//! How long two moving elements surely stay further apart than a distance: conservative advancement by separating directions.
+//! How long two moving elements surely stay further apart than a distance: conservative
+//! advancement.
 //!
-//! For any direction n the projections of the polygon's corners (see `motion`) are affine in t, and as long as all of them are above d |n|
-//! every point of it is further from the origin than d. From a time up to which that is known, n is the way to the point of the polygon
-//! that is nearest then; it is known up to the time at which the first projection has fallen to d |n|, less a 2^-20th of the gain; and so
-//! on. It ends when the pair is within 1.001 d and little is gained. So a pair that is further apart than that up to some time is known to
-//! be so up to that time: each step then gains a 0.001 d over its largest speed at least.
-//!
-//! **Rounding.** With u = 2^-53 and M as in `certain`, a projection at a time is off by less than 4 u n.M from that of its corner, and 3 u
-//! n.M from products and sums: the allowance is 8 u, and more than what can be lost below the normal range. A length is off by 3 u of
-//! itself. A gain is rounded to 2^-53 of the new time; gains below 2^-32 of it do not count.
-//!
-//! The nearest point is found by arithmetic that depends on the order of corners; they are put in an order of their own first, so that the
-//! answer does not.
+//! For any direction n the projections of the polygon's corners (see `motion`) are affine in t. As
+//! long as all are above d |n|, every point of it is further from the origin than d. From a time up
+//! to which that is known, n is the way to the point of the polygon that is nearest then. It is
+//! known up to the time at which the first projection has fallen to d |n|, less a 2^-20th of the
+//! gain. It ends when the pair is within 1.001 d and little is gained; so each step gains 0.001 d
+//! over the largest speed at least.
 
 use super::super::Point;
-use super::super::vector::rounded::{dot, minus};
-use super::certain::{Corners, Polygon};
+use super::super::float::{U, power};
+use super::super::vector::{dot, minus};
+use super::certain::Polygon;
 use super::moving::Moving;
+use std::cmp::Ordering;
 
-const OF_PROJECTION: f64 = 8.0 * (f64::EPSILON / 2.0);
-const LOST: f64 = f64::from_bits((1023 - 850) << 52);
-/// So many directions are looked at.
+// With u = 2^-53 and M as in `certain`, a projection at a time is off by less than 4 u n.M from
+// that of its corner. Products and sums add 3 u n.M. The allowance is 8 u, and more than what can
+// be lost below the normal range. A length is off by 3 u of itself. A gain is rounded to 2^-53 of
+// the new time; gains below 2^-32 of it do not count.
+const OF_PROJECTION: f64 = 8.0 * U;
+const LOST: f64 = power(-850);
+/// The number of directions that are looked at, at most.
 const MOST_DIRECTIONS: usize = 4096;
 /// A pair that is nearer than this many times the distance has come near it.
 const NEAR: f64 = 1.001;
 /// Then gains below this part of the time are little.
 const LITTLE: f64 = 1.0 / 1024.0;
 
-/// A time up to which two elements surely stay further apart than `distance`, which is above 0: from 0, where perhaps they are not, to 1;
-/// or some such time after `of_interest`.
+/// A time from 0 to 1 up to which two elements surely stay further apart than `distance`.
+///
+/// The distance is above 0, in the unit of the coordinates. The time is 0 where perhaps they are
+/// not further apart at the start, and 1 where they stay so. Any such time after `of_interest` may
+/// end the search. A pair that is further apart than 1.001 times the distance up to some time is
+/// known to be so up to that time. Cost: a fraction of a microsecond a direction, of which there
+/// are few, and at most 4096.
 pub fn distant_until(moving: &Moving, distance: f64, of_interest: f64) -> f64 {
     let polygon = Polygon::new(&in_order(moving));
     let mut known: f64 = 0.0;
     for _ in 0..MOST_DIRECTIONS {
-        let n = nearest(&polygon.at(known), moving.are_edges);
+        let n = nearest(&polygon.at(known)[..polygon.count], moving.are_edges);
         let length = dot(&n, &n).sqrt();
         let level = distance * length * (1.0 + 8.0 * f64::EPSILON);
         let mut gain: f64 = 1.0;
         let mut is_known = true;
-        for i in 0..polygon.count() {
+        for i in 0..polygon.count {
             let (start, end, most) = polygon.corner(i);
-            let sum = n[0].abs() * most[0] + n[1].abs() * most[1] + n[2].abs() * most[2];
-            let allowed = level + sum * OF_PROJECTION + LOST;
+            let allowed = level + dot(&n.map(f64::abs), &most) * OF_PROJECTION + LOST;
             let [at_start, at_end] = [dot(&n, &start), dot(&n, &end)];
             let now = (1.0 - known) * at_start + known * at_end - allowed;
             let last = at_end - allowed;
@@ -57,10 +62,10 @@ pub fn distant_until(moving: &Moving, distance: f64, of_interest: f64) -> f64 {
         if gain >= 1.0 {
             return 1.0;
         }
-        let gain = gain * (1.0 - known) * (1.0 - f64::powi(0.5, 20));
+        let gain = gain * (1.0 - known) * (1.0 - power(-20));
         let next = known + gain;
         let is_little = length <= distance * NEAR && gain < next * LITTLE;
-        if gain.is_nan() || gain <= next * f64::powi(0.5, 32) || gain < f64::powi(0.5, 1000) {
+        if gain.is_nan() || gain <= next * power(-32) || gain < power(-1000) {
             return known;
         }
         known = next;
@@ -71,30 +76,33 @@ pub fn distant_until(moving: &Moving, distance: f64, of_interest: f64) -> f64 {
     known
 }
 
-/// Whether two corners are surely at most `distance` apart at the start: most pairs that are nearer than it need no exact decision.
+/// Whether two corners are surely at most `distance` apart at the start: most pairs that are nearer
+/// than it need no exact decision.
 ///
-/// With u = 2^-53 a component of a difference is off by u of itself, a square of a length by 6 u of itself: 16 u are allowed. What is lost
-/// below the normal range, at most 2^-1018 of the distance, is less than the rest of that if the square of the distance is above 2^-900.
+/// The distance is in the unit of the coordinates; the answer false says nothing. Cost:
+/// nanoseconds. With u = 2^-53 a component of a difference is off by u of itself, a square of a
+/// length by 6 u of itself: 16 u are allowed. What is lost below the normal range is at most
+/// 2^-1018 of the distance. That is less than the rest of the allowance if the square of the
+/// distance is above 2^-900.
 pub fn starts_surely_within(moving: &Moving, distance: f64) -> bool {
     let square = distance * distance;
-    let limit = square * (1.0 - 16.0 * (f64::EPSILON / 2.0));
+    let limit = square * (1.0 - 16.0 * U);
     let polygon = Polygon::new(moving);
     let [start, _] = polygon.part([0.0, 1.0]);
-    let mut corners = start[..polygon.count()].iter();
-    let is_normal = square > f64::powi(0.5, 900) && square.is_finite();
+    let mut corners = start[..polygon.count].iter();
+    let is_normal = square > power(-900) && square.is_finite();
     is_normal && corners.any(|corner| dot(corner, corner) <= limit)
 }
 
-/// The same two elements, their corners in an order that does not depend on that in which they came.
+/// Two moving elements with their corners in an order of their own, however they came. The nearest
+/// point is found by arithmetic that depends on the order of corners; the answer is not to depend
+/// on it.
 fn in_order(moving: &Moving) -> Moving {
     let [start, end] = moving.corners;
     let mut corners: [[Point; 2]; 4] = std::array::from_fn(|i| [start[i], end[i]]);
     let compare = |p: &[Point; 2], q: &[Point; 2]| {
         let both = p.as_flattened().iter().zip(q.as_flattened());
-        let mut orders = both.map(|(x, y)| x.total_cmp(y));
-        orders
-            .find(|order| order.is_ne())
-            .unwrap_or(std::cmp::Ordering::Equal)
+        both.fold(Ordering::Equal, |order, (x, y)| order.then(x.total_cmp(y)))
     };
     if moving.are_edges {
         corners[..2].sort_unstable_by(compare);
@@ -115,7 +123,7 @@ fn in_order(moving: &Moving) -> Moving {
 }
 
 /// About the point of the polygon that is nearest to the origin.
-fn nearest([a, b, c, d]: &Corners, is_parallelogram: bool) -> Point {
+fn nearest(corners: &[Point], is_parallelogram: bool) -> Point {
     let along = |p: &Point, t: f64, e: &Point| [p[0] + t * e[0], p[1] + t * e[1], p[2] + t * e[2]];
     let on_segment = |p: &Point, q: &Point| {
         let e = minus(q, p);
@@ -129,22 +137,17 @@ fn nearest([a, b, c, d]: &Corners, is_parallelogram: bool) -> Point {
         };
         along(p, t, &e)
     };
+    let [a, b, last] = [0, 1, corners.len() - 1].map(|i| &corners[i]);
     let mut best = on_segment(a, b);
     let mut take = |point: Point| {
         if dot(&point, &point) < dot(&best, &best) {
             best = point;
         }
     };
-    let (e, f) = if is_parallelogram {
-        take(on_segment(b, c));
-        take(on_segment(c, d));
-        take(on_segment(d, a));
-        (minus(b, a), minus(d, a))
-    } else {
-        take(on_segment(b, c));
-        take(on_segment(c, a));
-        (minus(b, a), minus(c, a))
-    };
+    for i in 1..corners.len() {
+        take(on_segment(&corners[i], &corners[(i + 1) % corners.len()]));
+    }
+    let (e, f) = (minus(b, a), minus(last, a));
     let (ee, ef, ff) = (dot(&e, &e), dot(&e, &f), dot(&f, &f));
     let (ae, af) = (0.0 - dot(a, &e), 0.0 - dot(a, &f));
     let whole = ee * ff - ef * ef;

@@ -1,6 +1,11 @@
-//! Which numbers are told of times.
+//! Grids of times: the numbers that are told of a time that has no number of its own.
+//!
+//! A cell is two neighbours of a grid. Spacings are powers of two, so that quotients and products
+//! by them are exact.
 
 /// The numbers that are told of times: multiples of a power of two up to 1, or all.
+///
+/// Times are parts of the motion, so the spacing is one too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
     /// The power of two; 0 for all numbers.
@@ -8,7 +13,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The coarsest with cells no wider than `width`, which is at least 0.
+    /// The coarsest grid with cells no wider than `width`, which is at least 0; for 0 all numbers.
     pub fn new(width: f64) -> Self {
         Self {
             spacing: if width < 1.0 {
@@ -36,18 +41,20 @@ impl Grid {
 
     /// The largest of them that is at most `t`, from 0 to 1.
     pub(super) fn down(self, t: f64) -> f64 {
-        if self.spacing == 0.0 {
-            return t;
-        }
-        // A quotient by a power of two is exact, and so is its product.
-        (t / self.spacing).floor() * self.spacing
+        self.next_to(t, f64::floor)
     }
 
     /// The least of them that is at least `t`.
     pub(super) fn up(self, t: f64) -> f64 {
+        self.next_to(t, f64::ceil)
+    }
+
+    #[inline]
+    fn next_to(self, t: f64, whole: impl Fn(f64) -> f64) -> f64 {
         if self.spacing == 0.0 {
             return t;
         }
-        (t / self.spacing).ceil() * self.spacing
+        // A quotient by a power of two is exact, and so is its product.
+        whole(t / self.spacing) * self.spacing
     }
 }

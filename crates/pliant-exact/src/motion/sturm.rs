@@ -1,18 +1,26 @@
 //! How many roots a polynomial has in an interval: its sequence of Sturm.
 //!
-//! Of a polynomial and its derivative, each further one is a positive multiple of the negative remainder of the two before it, to the last
-//! that is not zero. Between two times that are no roots the sequence loses as many changes of sign as there are roots, each counted once.
-//!
-//! Of a t^3 + b t^2 + c t + d with the sign s of a, the third is s (2 (b^2 - 3 a c) t + b c - 9 a d): the remainder times -9 |a|. What
-//! comes after one of degree 1 is a number, of which the sign is enough: the opposite of that which the one before has at the root. It is
-//! zero if the polynomial has multiple roots. Then all its roots are fractions: a root that comes twice is that of the one of degree 1, and
-//! all add up to -b / a; what comes three times is -b / (3 a).
+//! Each further polynomial is a positive multiple of the negative remainder of the two before it,
+//! from the polynomial and its derivative on. Between two times that are no roots the sequence
+//! loses as many changes of sign as there are roots, each counted once. Here the degree is 3 at
+//! most, and the last number is known by its sign alone. Where that is zero, there are multiple
+//! roots; then all roots are fractions.
 
 use super::super::integer::Integer;
+use super::super::ring::Ring;
 use super::fraction::{Dyadic, Fraction};
 use super::polynomial::Polynomial;
 
-/// The sequence of a polynomial of degree 2 or 3.
+/// The sequence of a polynomial.
+///
+/// Let s be the sign of a in a t^3 + b t^2 + c t + d. The third is s (2 (b^2 - 3 a c) t + b c - 9 a
+/// d): the remainder times -9 |a|. What comes after one of degree 1 is a number, of which the sign
+/// is enough. It is the opposite of the sign that the one before has at the root of that one, and
+/// zero if the polynomial has multiple roots.
+///
+/// Then all its roots are fractions. A root that comes twice is that of the one of degree 1, and
+/// all add up to -b / a; what comes three times is -b / (3 a). A polynomial of degree 1 is itself
+/// the one of degree 1: its root is a fraction too.
 #[derive(Clone, Debug)]
 pub(super) struct Sturm {
     /// The polynomial, its derivative, and of a cube the third, which may be zero.
@@ -35,20 +43,21 @@ impl Sturm {
         };
         let polynomials = [polynomial.clone(), polynomial.derivative(), third];
         let affine = polynomials.iter().position(|it| it.degree() == 1);
-        let last = affine.map_or(0, |place| {
-            let root = polynomials[place].affine_root();
-            -polynomials[place - 1].sign_at_fraction(&root)
-        });
+        let last = match affine {
+            Some(place @ 1..) => -polynomials[place - 1].sign_at(&polynomials[place].affine_root()),
+            _ => 0,
+        };
         Self { polynomials, last }
     }
 
-    /// The one of degree 1, if there is one: between two roots that are near each other, and far from a third, it has its own.
+    /// The one of degree 1, if there is one. Between two roots that are near each other, and far
+    /// from a third, it has its own.
     pub(super) fn affine(&self) -> Option<&Polynomial> {
         self.polynomials.iter().find(|it| it.degree() == 1)
     }
 
-    /// All roots, in any order, if one of them is a multiple one.
-    pub(super) fn multiple_roots(&self) -> Option<[Fraction; 2]> {
+    /// All roots, in any order, if one of them is a multiple one, or the degree is 1.
+    pub(super) fn fractions(&self) -> Option<[Fraction; 2]> {
         let [polynomial, derivative, third] = &self.polynomials;
         let is_cube = polynomial.degree() == 3;
         if self.last != 0 || is_cube && third.is_constant() && !third.is_zero() {

@@ -1,25 +1,26 @@
-//! Numbers in [0, 1] that are roots of polynomials: all roots of one, and the sign of another at any of them.
+//! Algebraic numbers in [0, 1]: isolation of a polynomial's roots, and signs of other polynomials
+//! at them.
 
 use super::polynomial::Polynomial;
 use crate::integers::Exact;
 use dashu_int::IBig;
 use std::cmp::Ordering;
 
-/// A root of a polynomial, by itself in an interval of fractions whose denominator is a power of two.
+/// A root of a polynomial, isolated in an interval of fractions over a power of two.
 #[derive(Clone, Debug)]
 pub(super) struct Root {
-    /// Has no root twice, and where low < high none at low and high, and one between.
+    /// Polynomial without double roots. If low < high it has no root at either, and one between.
     of: Polynomial,
     low: IBig,
     high: IBig,
-    /// Of the denominator 2^bits.
+    /// Exponent of the denominator 2^bits.
     bits: usize,
-    /// The interval is divided into 2^steps the next time.
+    /// The next refinement divides the interval into 2^steps parts.
     steps: usize,
 }
 
 impl Root {
-    /// An integer.
+    /// The integer `n` as a root.
     pub(super) fn whole(n: u8) -> Self {
         Self {
             of: Polynomial::new(vec![-IBig::from(n), IBig::ONE]),
@@ -36,8 +37,9 @@ impl Root {
 
     /// All roots in [0, 1], in order, each once.
     ///
-    /// Between two neighbouring roots of its derivative, and 0 and 1, a polynomial rises or falls all the way. So there is one root between
-    /// if and only if the signs at both are opposite; and a root of both was divided out.
+    /// Between neighbouring roots of its derivative, 0 and 1, a polynomial is monotonic. So there
+    /// is a root between if and only if the signs at both are opposite. Common roots of both were
+    /// divided out.
     pub(super) fn all(of: &Polynomial) -> Vec<Self> {
         if of.degree() == 0 || of.sign_on(&IBig::ZERO, &IBig::ONE, 0).is_some() {
             return Vec::new();
@@ -49,7 +51,7 @@ impl Root {
         let ends = [Self::whole(0), Self::whole(1)];
         let [zero, one] = ends;
         for mut cut in [zero].into_iter().chain(turns).chain([one]) {
-            // If it is not zero, then it is the sign of all from cut.low to cut.high.
+            // If the sign is not zero, it holds from cut.low to cut.high.
             let sign = cut.sign_of(&of);
             if let Some((before, sign_before)) = before
                 && sign * sign_before < 0
@@ -64,7 +66,7 @@ impl Root {
                 });
             }
             if sign == 0 {
-                // This is 0 or 1: at a turn it would be a root twice.
+                // This is 0 or 1, since a root that is also a turn would be a double root.
                 roots.push(cut.clone());
             }
             before = Some((cut, sign));
@@ -72,10 +74,10 @@ impl Root {
         roots
     }
 
-    /// The sign of a polynomial at this number.
+    /// Sign of a polynomial at this number.
     pub(super) fn sign_of(&mut self, other: &Polynomial) -> i8 {
-        /// In how short an interval, as a fraction of one of the same form, to ask whether it is zero: that takes longer than to see in a
-        /// short interval that it is not.
+        /// Bits of the interval's denominator from which on the gcd is tried. It takes longer than
+        /// to see in a short interval that the value is not zero.
         const SHORT: usize = 24;
         if other.degree() == 0 {
             return other.sign_of_constant();
@@ -89,7 +91,8 @@ impl Root {
                 return sign;
             }
             if !is_other && self.bits >= SHORT {
-                // A common root in the interval can only be this number. It is a root once, and the ends are none.
+                // A common root in the interval can only be this number. It is simple, and not at
+                // an end.
                 let common = self.of.gcd(other);
                 let sign_at = |n| common.sign_at(n, self.bits);
                 if common.degree() > 0 && sign_at(&self.low) != sign_at(&self.high) {
@@ -101,11 +104,12 @@ impl Root {
         }
     }
 
-    /// Makes the interval shorter: by half, or by much more once it is short enough that the polynomial is almost a line in it.
+    /// Shortens the interval: by half, or by far more once the polynomial is almost a line in it.
     ///
-    /// The interval is divided into 2^steps, and of these the one taken where a straight line from end to end has its zero (Abbott
-    /// 2014, quadratic interval refinement). If the root is there, the next division is finer, else coarser; what is kept is what
-    /// has opposite signs at its ends, in any case.
+    /// Quadratic interval refinement (Abbott 2014): the interval is divided into 2^steps parts. The
+    /// part is taken in which a straight line from end to end has its zero. If the root is there,
+    /// the next division is finer, else coarser. The interval kept always has opposite signs at its
+    /// ends.
     fn refine(&mut self) {
         let steps = self.steps;
         let (below, above) = (
@@ -151,7 +155,8 @@ impl Root {
             self.compare_with_fraction(&other.low, other.bits),
             self.compare_with_fraction(&other.high, other.bits),
         ) {
-            // Between the ends the sign of the other's polynomial says on which side of its root this is.
+            // Between the ends, the sign of the other's polynomial tells on which side of its root
+            // this is.
             (Ordering::Greater, Ordering::Less) => {
                 let here = self.sign_of(&other.of);
                 let before = other.of.sign_at(&other.low, other.bits);
@@ -176,7 +181,8 @@ mod tests {
 
     #[test]
     fn roots_that_are_known() {
-        // Coefficients of 1, t, t^2, t^3; how many roots there are in [0, 1]; those that are fractions with the denominator 16.
+        // Coefficients of 1, t, t^2, t^3; the number of roots in [0, 1]; and the roots that are n /
+        // 16.
         for (coefficients, count, fractions) in [
             (&[][..], 0, &[][..]),
             (&[3], 0, &[]),
@@ -190,7 +196,8 @@ mod tests {
             (&[0, 0, 1], 1, &[0]),
             (&[1, 0, 1], 0, &[]),
             (&[0, -1, 1], 2, &[0, 16]),
-            // (2t - 1) (3t - 1) (5t - 4), (2t - 1)^3, (4t - 1)^2 (4t - 3), t (t - 1) (2t - 1), t^2 (t - 1).
+            // (2t - 1) (3t - 1) (5t - 4), (2t - 1)^3, (4t - 1)^2 (4t - 3), t (t - 1) (2t - 1), t^2
+            // (t - 1).
             (&[4, -25, 49, -30], 3, &[8]),
             (&[-1, 6, -12, 8], 1, &[8]),
             (&[-3, 28, -80, 64], 2, &[4, 12]),
@@ -216,7 +223,7 @@ mod tests {
         }
     }
 
-    /// Products of lines with roots in a list, times what has none.
+    /// Products of lines with known roots and a factor without roots.
     #[test]
     fn roots_of_products() {
         let mut random = Random::new(6);
@@ -238,7 +245,8 @@ mod tests {
             assert_eq!(roots.len(), over.len(), "{of:?}");
             for (root, &n) in roots.iter_mut().zip(&over) {
                 assert_eq!(root.sign_of(&polynomial(&[-n, denominator])), 0);
-                // A little less, and the polynomial of another that has the same root.
+                // Lines with a root a little less or more, and another polynomial with the same
+                // root.
                 assert_eq!(
                     root.sign_of(&polynomial(&[1 - 1000 * n, 1000 * denominator])),
                     1
@@ -284,7 +292,7 @@ mod tests {
                 width = now;
                 times += 1;
             }
-            // By halves it would be a hundred.
+            // Halving would take a hundred.
             assert!(times < 25, "{times}");
         }
     }

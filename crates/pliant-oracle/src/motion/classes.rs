@@ -1,9 +1,9 @@
-//! Motions of which a decision is likely to go wrong.
+//! Hard motions: continuous collisions on which a decision is likely to go wrong.
 //!
-//! Every coordinate is finite and at most `f32::MAX` in magnitude. The motions depend on the seed alone.
-//!
-//! Most are built from integers: from corners that meet at some time, and what these move by in a small part of the step. So
-//! the time, and where they meet, are exact, and a step to a neighbouring number, or a few, makes the other answer likely.
+//! Every coordinate is finite and at most `f32::MAX` in magnitude. The motions depend on the seed
+//! alone. Most are built from integers: corners that meet at some time, and their moves in a part
+//! of the way. So the contact is exact, and a move to a neighbouring number makes the other answer
+//! likely.
 
 use super::{Elements, Moving};
 use crate::pairs::{Random, power};
@@ -14,33 +14,43 @@ pub fn motion_fits_f32(motion: &Moving) -> bool {
     coordinates.all(|&x| f64::from(x as f32) == x)
 }
 
-/// A kind of motions. Each has both kinds of elements, and, where it does not say otherwise, coordinates of both precisions.
+/// A class of hard motions.
+///
+/// Each class has both kinds of elements. Unless its text says otherwise, it has coordinates of
+/// both precisions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MotionClass {
     /// Corners anywhere in a cube at both ends.
     Random,
-    /// A point of the one comes near a point of the other at some time, with any velocities: they hit, or pass by.
+    /// A point of one element comes near a point of the other, at any velocities: they hit or pass
+    /// by.
     Aimed,
     /// Corners on a small lattice at both ends: every degenerate contact there is.
     Lattice,
-    /// Elements that are smaller than they should be (edges that are points, triangles that are segments or points) at the start, at the
-    /// end, at both, or for a moment between.
+    /// Degenerate elements: edges that are points, triangles that are segments or points.
+    ///
+    /// At the start, at the end, at both, or for a moment between.
     Degenerate,
     /// All corners in one plane always, parallel to axes or oblique, at rest or moving.
     Coplanar,
-    /// Edges, or an edge of the triangle and the path of the vertex, that are parallel when they meet, or always, or in one line.
+    /// Parallel edges, or an edge of the triangle parallel to the vertex's path.
+    ///
+    /// When they meet, always, or in one line.
     Parallel,
-    /// The first contact is at the end exactly, or would be a few units in the last place sooner or later, at any size.
+    /// First contact at the end exactly, or a few units in the last place earlier or later, at any
+    /// size.
     TouchAtEnd,
-    /// They touch at the start exactly, or nearly, at any size, and then go anywhere.
+    /// Contact at the start exactly, or nearly, at any size; then they move anywhere.
     TouchAtStart,
-    /// The four corners come into one plane and leave it to the side they came from: a double root; exactly, or nearly.
+    /// A double root: the four corners come into one plane and return to the side they came from;
+    /// exactly, or nearly.
     DoubleRoot,
-    /// They meet at a corner or along an edge of the triangle, or at an end of an edge, at a dyadic time; exactly, or nearly.
+    /// Contact at a corner or edge of the triangle, or at an end of an edge, at a dyadic time;
+    /// exactly, or nearly.
     Boundary,
-    /// The four corners are three times in one plane: three roots, of which any may be a contact.
+    /// Three roots: the four corners are in one plane three times, of which any may be a contact.
     ThreeRoots,
-    /// Nothing moves, or one corner, or one of the two elements.
+    /// Rest: nothing moves, or one corner, or one of the two elements.
     Still,
     /// Both move alike and far, from or to places far from the origin; or almost alike.
     Translation,
@@ -48,22 +58,24 @@ pub enum MotionClass {
     Scales,
     /// Multiples of the smallest `f32` or `f64`, some with coordinates of ordinary size.
     Tiny,
-    /// Up to the largest numbers in range.
+    /// Coordinates up to the largest numbers in range.
     Huge,
-    /// Real corners and velocities, computed so that the contact is at a corner or along an edge, up to rounding.
+    /// Real corners and velocities, with the contact at a corner or along an edge up to rounding.
     Grazing,
-    /// Edges (an edge of the triangle, and the path of the vertex) that are parallel up to a small angle and cross while they approach.
+    /// Edges that are parallel up to a small angle and cross while they approach.
+    ///
+    /// Or an edge of the triangle and the path of the vertex.
     NearlyParallel,
-    /// They meet within a tiny part of the step from its start.
+    /// Contact within a tiny part of the step from its start.
     Early,
-    /// They meet within a tiny part of the step from its end.
+    /// Contact within a tiny part of the step from its end.
     Late,
     /// Any bits that are numbers in range.
     AnyBits,
 }
 
 impl MotionClass {
-    /// Every kind.
+    /// All classes.
     pub const ALL: [Self; 21] = [
         Self::Random,
         Self::Aimed,
@@ -88,7 +100,7 @@ impl MotionClass {
         Self::AnyBits,
     ];
 
-    /// The next motion of this kind.
+    /// Generates the next motion of this class.
     pub fn motion(self, random: &mut Random) -> (Elements, Moving) {
         let elements = if random.one_in(2) {
             Elements::VertexTriangle
@@ -146,7 +158,7 @@ struct Maker<'a> {
 }
 
 impl Maker<'_> {
-    /// To `f32` if wanted, and into range.
+    /// Clamps into range, and rounds to `f32` if wanted.
     fn rounded(&self, motion: Moving) -> Moving {
         let max = f64::from(f32::MAX);
         every(motion, |x| {
@@ -155,7 +167,7 @@ impl Maker<'_> {
         })
     }
 
-    /// Corners, elements and axes in any order.
+    /// Reorders corners, elements and axes at random.
     fn shuffled(&mut self, mut motion: Moving) -> Moving {
         let turn = self.random.below(3) as usize;
         let mirror = self.random.one_in(2);
@@ -191,7 +203,7 @@ impl Maker<'_> {
         motion
     }
 
-    /// One of the motion's coordinates, or up to three, moved a little; or none.
+    /// Moves up to three of the motion's coordinates a little.
     fn nudged(&mut self, motion: Moving) -> Moving {
         let mut motion = self.rounded(motion);
         for _ in 0..self.random.below(4) {
@@ -226,7 +238,7 @@ impl Maker<'_> {
         let range = [1, 2, 3, 6, 1000][self.random.below(5) as usize];
         let mut motion = [(); 2].map(|()| [(); 4].map(|()| self.wholes(range)));
         if self.random.one_in(4) {
-            // Some corners stand still, or move alike.
+            // Some corners stand still.
             for corner in 0..4 {
                 if self.random.one_in(2) {
                     motion[1][corner] = motion[0][corner];
@@ -236,8 +248,9 @@ impl Maker<'_> {
         motion
     }
 
-    /// Weights of a point of each element, for each corner: integers whose sum is the whole in each element. A quarter of the points are at
-    /// the boundary, or all if it is asked for.
+    /// Weights of the corners for a point of each element: integers that add up to `whole` in each.
+    ///
+    /// A quarter of the points are at the boundary; all if `boundary`.
     fn weights(&mut self, whole: i32, boundary: bool) -> [f64; 4] {
         let boundary = boundary || self.random.one_in(4);
         let part = |random: &mut Random, at_end: bool| match (at_end, random.one_in(2)) {
@@ -249,7 +262,7 @@ impl Maker<'_> {
         match self.elements {
             Elements::VertexTriangle => {
                 let s = part(self.random, boundary && at_end[0]);
-                // At an edge: the third corner has no part.
+                // At an edge: the third corner has no weight.
                 let t = if boundary || s == whole {
                     0
                 } else {
@@ -265,16 +278,18 @@ impl Maker<'_> {
         }
     }
 
-    /// Integer corners that meet at the point of these weights, multiples of which are on the lattice.
+    /// Random integer corners that meet at the point of these weights, all multiples of `whole`.
     ///
-    /// All are random but one, which is put where the others need it.
+    /// The first element is moved to where the other is.
     fn meeting(&mut self, weights: [f64; 4], whole: f64, range: i32) -> Corners {
         let mut corners = [(); 4].map(|()| self.wholes(range).map(|x| x * whole));
         self.make_meet(&mut corners, weights, whole);
         corners
     }
 
-    /// Changes them, so that the two points of the weights agree: exactly, if corners are multiples of the whole.
+    /// Moves the first element, so that the two weighted points agree.
+    ///
+    /// Exactly, if the corners are multiples of `whole`.
     fn make_meet(&mut self, corners: &mut Corners, weights: [f64; 4], whole: f64) {
         let first = self.of_first();
         for axis in 0..3 {
@@ -288,7 +303,7 @@ impl Maker<'_> {
         }
     }
 
-    /// How many corners belong to the first element.
+    /// Number of corners of the first element.
     fn of_first(&self) -> usize {
         match self.elements {
             Elements::VertexTriangle => 1,
@@ -296,12 +311,13 @@ impl Maker<'_> {
         }
     }
 
-    /// A whole for weights: a power of two.
+    /// A random power of two as the sum of weights.
     fn some_whole(&mut self) -> i32 {
         [2, 4, 8][self.random.below(3) as usize]
     }
 
-    /// Corners that are at places at a time of numerator / 2^bits of the step, and move by so much in each part of it.
+    /// Motion through `places` at the time numerator / 2^bits; `moves` is the motion in each
+    /// 2^-bits of the step.
     fn through(places: Corners, moves: Corners, numerator: i32, bits: i32) -> Moving {
         let at = |parts: f64| {
             std::array::from_fn(|i| {
@@ -318,7 +334,7 @@ impl Maker<'_> {
         (self.random.between(1, (1 << bits) - 1), bits)
     }
 
-    /// An integer map of space that has an integer inverse, so that it turns axes into any directions.
+    /// Maps space by an integer map with an integer inverse, which turns axes into any directions.
     fn oblique(&mut self, mut motion: Moving) -> Moving {
         for _ in 0..self.random.below(4) {
             let [from, to] = [(); 2].map(|()| self.random.below(3) as usize);
@@ -332,7 +348,7 @@ impl Maker<'_> {
         motion
     }
 
-    /// A power of two for everything.
+    /// Multiplies everything by a power of two.
     fn at_some_size(&mut self, motion: Moving, least: i32, most: i32) -> Moving {
         let scale = power(self.random.between(least, most));
         every(motion, |x| x * scale)
@@ -355,7 +371,7 @@ impl Maker<'_> {
         self.make_meet(&mut places, weights, 8.0);
         let miss = self.reals();
         if self.random.one_in(2) {
-            // How far it passes by.
+            // The distance at which it passes by.
             let far = power(-self.random.between(0, 30));
             for p in &mut places[..1] {
                 *p = [0, 1, 2].map(|axis| p[axis] + far * miss[axis]);
@@ -401,7 +417,8 @@ impl Maker<'_> {
             }
         }
         if when == 3 {
-            // Two corners change places: half way they are one. All three move to their centre and beyond.
+            // Two corners change places and are one half way. Or all three move to their centre and
+            // beyond.
             let [start, end] = &mut motion;
             let of = if first == 1 { [1, 2] } else { [0, 1] };
             [end[of[0]], end[of[1]]] = [start[of[1]], start[of[0]]];
@@ -433,7 +450,7 @@ impl Maker<'_> {
         } else {
             self.lattice()
         };
-        // The plane may move, with all that is in it.
+        // The plane may move, with all corners.
         let height = [(); 2].map(|()| self.whole(20));
         let still = self.random.one_in(2);
         for (end, corners) in motion.iter_mut().enumerate() {
@@ -478,7 +495,7 @@ impl Maker<'_> {
             Elements::VertexTriangle => {
                 places[2] = beside(places[1], times[0]);
                 self.make_meet(&mut places, weights, f64::from(whole));
-                // Along the edge, seen from it.
+                // Along the edge, relative to it.
                 moves[0] = beside(moves[1], times[1] / f64::from(whole));
                 moves[2] = moves[1];
                 if self.random.one_in(2) {
@@ -487,7 +504,7 @@ impl Maker<'_> {
             }
         }
         if self.random.one_in(4) {
-            // In one line for good.
+            // In one line always.
             moves = [(); 4].map(|()| along.map(|x| x * self.whole(2)));
         }
         let (numerator, bits) = self.time();
@@ -514,7 +531,7 @@ impl Maker<'_> {
         self.nudged_at(motion, 1)
     }
 
-    /// One coordinate at one end moved a little, or not.
+    /// Moves one coordinate at one end a little, or not.
     fn nudged_at(&mut self, motion: Moving, end: usize) -> Moving {
         let mut motion = self.rounded(motion);
         let [corner, axis] = [4, 3].map(|count| self.random.below(count) as usize);
@@ -534,8 +551,8 @@ impl Maker<'_> {
             weights[3] -= more;
         }
         let range = [3, 20][self.random.below(2) as usize];
-        // In the plane z = 0 all four, and the heights of the two points of contact change alike: so the volume, which is their difference
-        // times an area, has a double root.
+        // All four are in the plane z = 0, and the heights of the two contact points change alike.
+        // So the volume, which is their difference times an area, has a double root.
         let mut places = self.meeting(weights, f64::from(whole), range);
         for p in &mut places {
             p[2] = 0.0;
@@ -565,8 +582,9 @@ impl Maker<'_> {
     }
 
     fn three_roots(&mut self) -> Moving {
-        // Three differences of corners as rows of a triangular matrix: its determinant is the product of the three numbers of the diagonal,
-        // each of which is zero at a time of its own. With eighths of the step as units of time they are integers.
+        // Three differences of corners as rows of a triangular matrix. Its determinant is the
+        // product of the three diagonal numbers, each zero at a time of its own. In units of
+        // eighths of the step they are integers.
         let mut rows = [[[0.0; 3]; 3]; 2];
         for row in 0..3 {
             for column in row..3 {
@@ -582,7 +600,8 @@ impl Maker<'_> {
                 rows[1][row][column] = from + slope;
             }
         }
-        // Multiples of a row added to another change no determinant, and turn where the origin lies when it is zero.
+        // Adding multiples of a row to another changes no determinant. It changes where the origin
+        // lies when the determinant is zero.
         for _ in 0..4 {
             let [from, to] = [(); 2].map(|()| self.random.below(3) as usize);
             let times = self.whole(2);
@@ -598,7 +617,8 @@ impl Maker<'_> {
             let [x, y, z] = rows[end].map(|row| [0, 1, 2].map(|axis| p[axis] - row[axis]));
             match self.elements {
                 Elements::VertexTriangle => [p, x, y, z],
-                // The third is from the start of the second edge to the end of the first.
+                // The third difference is from the start of the second edge to the end of the
+                // first.
                 Elements::EdgeEdge => {
                     let other = [0, 1, 2].map(|axis| x[axis] + rows[end][2][axis]);
                     [p, other, x, y]
@@ -646,7 +666,7 @@ impl Maker<'_> {
             0 => self.met(false),
             1 => self.aimed(),
             _ => {
-                // Quite alike: they meet always or never.
+                // Exactly alike: they meet always or never.
                 let mut motion = self.lattice();
                 motion[1] = motion[0];
                 motion
@@ -712,7 +732,7 @@ impl Maker<'_> {
 
     fn tiny(&mut self) -> Moving {
         let motion = self.of_integers();
-        // Integers, so that none is rounded.
+        // Integers, so that nothing is rounded.
         let motion = every(motion, f64::round);
         let least = if self.single { -149 } else { -1074 };
         let mut motion = every(motion, |x| x * power(least));
@@ -746,7 +766,7 @@ impl Maker<'_> {
         }
         let motion = every(motion, |x| x * up);
         if self.random.one_in(3) {
-            // To the limit.
+            // Up to the limit.
             let limit = 0.5 * most * up;
             let max = f64::from(f32::MAX);
             return every(
@@ -804,7 +824,8 @@ impl Maker<'_> {
         let weights = self.weights(whole, boundary);
         let places = self.meeting(weights, f64::from(whole), 9);
         let moves = [(); 4].map(|()| self.wholes(9));
-        // Integers in the first bits and the part of the step in the last: few enough for the time to be exact.
+        // Integers in the first bits and the part of the step in the last, few enough for an exact
+        // time.
         let bits = self.random.between(4, if self.single { 18 } else { 44 });
         let numerator = self.random.between(1, 3);
         let motion = Self::through(places, moves, numerator, bits);

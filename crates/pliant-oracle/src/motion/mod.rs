@@ -1,22 +1,11 @@
-//! Whether a vertex and a triangle, or two edges, meet while their corners move on straight lines, and which of two pairs first.
+//! Exact continuous collision of a vertex and a triangle, or of two edges, on straight paths.
 //!
-//! At a time t two primitives meet if and only if the origin is in the hull of the differences of a corner of the one and a corner of the
-//! other: three differences, or four. Each moves on a straight line too. `zero_in_hull` decides that of points at rest by
-//! the signs of coordinates, cross products, dot products and determinants; of moving points all of these are polynomials in t of
-//! degree at most 3, with integer coefficients. Between neighbouring roots of these polynomials no sign changes, hence no answer.
-//!
-//! The times of contact are a closed set: if there is contact all through an open interval, then at its ends too. So the first contact is
-//! at 0 or at a root of one of the polynomials, and it is enough to ask `zero_in_hull` at these: with polynomials for numbers, whose sign
-//! is that of their value at the root, and exact (`algebraic.rs`).
-//!
-//! One observation makes this fast. Where there is contact, the origin and the first three differences are in one plane: of three
-//! differences because the origin is in their triangle, of four because these are the corners of a parallelogram. So if the determinant of
-//! the three is not zero always, its roots are the only times to look at.
-//!
-//! The tests of this folder look at all roots, too, and find the same (`Times::Every`); and they prove most answers by means that know no
-//! roots (`proofs.rs`).
-//!
-//! Nothing is rounded, and nothing is assumed of the primitives: a degenerate one is the segment or the point that it is.
+//! Two elements meet at a time if and only if the origin is in the hull of the differences of their
+//! corners. `zero_in_hull` decides that by signs of polynomials in time, of degree at most 3.
+//! Between neighbouring roots no sign changes, and the times of contact are a closed set. So the
+//! first contact is at 0 or at a root, and `zero_in_hull` runs there with polynomials as numbers
+//! (`algebraic.rs`). Nothing is rounded, and a degenerate element is the segment or point that it
+//! is.
 
 mod algebraic;
 mod classes;
@@ -33,7 +22,7 @@ use polynomial::Polynomial;
 use std::cell::RefCell;
 use std::cmp::Ordering;
 
-/// Which elements four corners are.
+/// Kind of the two elements that four corners form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Elements {
     /// A vertex, then a triangle.
@@ -42,10 +31,10 @@ pub enum Elements {
     EdgeEdge,
 }
 
-/// Four corners at the start, at time 0, and at the end, at time 1.
+/// Four corners at the start, time 0, and at the end, time 1.
 pub type Moving = [[[f64; 3]; 4]; 2];
 
-/// Whether they meet, as closed sets, at some time of [0, until].
+/// Whether two elements meet, as closed sets, at some time of [0, until].
 ///
 /// # Panics
 ///
@@ -55,7 +44,7 @@ pub fn meet_until(elements: Elements, motion: &Moving, until: f64) -> bool {
     first_contact(elements, motion).is_some_and(|first| first.compare(until).is_le())
 }
 
-/// Which of two motions first meets earlier; `None` if either never does in [0, 1].
+/// Compares the times at which two motions first meet. `None` if either never does in [0, 1].
 ///
 /// # Panics
 ///
@@ -64,13 +53,14 @@ pub fn compare_first(a: (Elements, &Moving), b: (Elements, &Moving)) -> Option<O
     Some(first_contact(a.0, a.1)?.compare_with(&first_contact(b.0, b.1)?))
 }
 
-/// The time of the first contact, exactly: a root of a polynomial. To compare one with several numbers takes less time than to ask
-/// [`meet_until`] for each.
+/// Time of a first contact, exactly: a root of a polynomial.
+///
+/// Comparing one with several numbers takes less time than calling [`meet_until`] for each.
 #[derive(Clone, Debug)]
 pub struct FirstContact(RefCell<Root>);
 
 impl FirstContact {
-    /// Whether it is earlier than t, the same, or later.
+    /// Compares the time of this contact with t.
     ///
     /// # Panics
     ///
@@ -79,19 +69,27 @@ impl FirstContact {
         let [n, one] = &integers(&[t, 1.0])[..] else {
             unreachable!("two numbers were given")
         };
-        // In units of which one is a power of two.
+        // In units in which one is a power of two.
         let bits = one.trailing_zeros().expect("one is not zero");
         self.0.borrow_mut().compare_with_fraction(n, bits)
     }
 
-    /// Whether it is earlier than the first contact of another motion, at the same time, or later.
+    /// Compares the time of this contact with another's.
     pub fn compare_with(&self, other: &Self) -> Ordering {
         let other = other.0.borrow().clone();
         self.0.borrow_mut().compare(&other)
     }
 }
 
-/// The first time of [0, 1] at which they meet, as closed sets.
+/// First time of [0, 1] at which two elements meet, as closed sets; `None` if they never do.
+///
+/// At contact the origin and the first three differences are in one plane. For three differences,
+/// because the origin is in their triangle; for four, because they are the corners of a
+/// parallelogram. So if the determinant of the three is not zero always, its roots are the only
+/// times to test.
+///
+/// The tests of this folder also test all roots, with the same results (`Times::Every`). They prove
+/// most answers by means that know no roots (`proofs.rs`).
 ///
 /// # Panics
 ///
@@ -105,12 +103,12 @@ pub fn first_contact(elements: Elements, motion: &Moving) -> Option<FirstContact
     first_of_all(elements, motion, Times::OfOnePlane)
 }
 
-/// At which times to look.
+/// Times that are tested.
 #[derive(Clone, Copy)]
 enum Times {
-    /// At the roots of one determinant unless it is zero.
+    /// Roots of one determinant; all roots if it is zero always.
     OfOnePlane,
-    /// At all roots always: slower, and the same answer.
+    /// Always all roots: slower, with the same answer.
     #[cfg(test)]
     Every,
 }
@@ -145,7 +143,7 @@ fn apart_along_an_axis(elements: Elements, motion: &Moving) -> bool {
     })
 }
 
-/// Coordinates of corners as functions of time, all divided by one power of two.
+/// Coordinates of corners as functions of time, scaled by one power of two.
 fn paths(motion: &Moving) -> [Vector<Polynomial>; 4] {
     let whole = integers(motion.as_flattened().as_flattened());
     std::array::from_fn(|corner| {
@@ -157,12 +155,12 @@ fn paths(motion: &Moving) -> [Vector<Polynomial>; 4] {
     })
 }
 
-/// The first time at which the origin is in the hull of points.
+/// First time at which the origin is in the hull of points.
 fn first<const N: usize>(points: &[Vector<Polynomial>; N], times: Times) -> Option<Root> {
     let plane = determinant(&points[0], &points[1], &points[2]);
     let of_one_plane = matches!(times, Times::OfOnePlane) && !plane.is_zero();
     if of_one_plane {
-        // In order: the first is the first.
+        // Roots are in order, so the first contact found is the first.
         return Root::all(&plane)
             .into_iter()
             .find_map(|time| contact(points, time));
@@ -178,7 +176,7 @@ fn first<const N: usize>(points: &[Vector<Polynomial>; N], times: Times) -> Opti
     first
 }
 
-/// What `zero_in_hull` decides by.
+/// Polynomials whose signs `zero_in_hull` uses.
 fn signs_asked_for<const N: usize>(points: &[Vector<Polynomial>; N]) -> Vec<Polynomial> {
     let mut all: Vec<Polynomial> = points.iter().flatten().cloned().collect();
     for [i, j] in pairs(N) {
@@ -189,7 +187,7 @@ fn signs_asked_for<const N: usize>(points: &[Vector<Polynomial>; N]) -> Vec<Poly
     all
 }
 
-/// The time, if the origin is in the hull of points then.
+/// Returns the time if the origin is in the hull of points then.
 fn contact<const N: usize>(points: &[Vector<Polynomial>; N], time: Root) -> Option<Root> {
     let time = RefCell::new(time);
     let then = points.each_ref().map(|point| {
@@ -203,7 +201,7 @@ fn contact<const N: usize>(points: &[Vector<Polynomial>; N], time: Root) -> Opti
     meet.then(|| time.into_inner())
 }
 
-/// The value of a polynomial at a root of another.
+/// Value of a polynomial at a root of another.
 #[derive(Clone)]
 struct AtTime<'a> {
     value: Polynomial,
@@ -262,7 +260,7 @@ mod tests {
         }
     }
 
-    /// The determinant whose roots are looked at.
+    /// The determinant whose roots are tested.
     fn volume(elements: Elements, motion: &Moving) -> Polynomial {
         let [a, b, c, d] = paths(motion);
         match elements {
@@ -273,7 +271,8 @@ mod tests {
 
     #[test]
     fn classes_have_the_roots_that_they_are_named_for() {
-        // Of 1,000: always in one plane; with a double root; with three roots, and of these with the first contact at a later one.
+        // Numbers among 1,000: always in one plane; with a double root; with three roots; and of
+        // these, with the first contact at a later root.
         let count = |class: MotionClass| {
             let mut counts = [0; 4];
             let mut random = Random::new(4);

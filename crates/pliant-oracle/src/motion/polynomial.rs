@@ -4,7 +4,7 @@ use crate::integers::{Exact, Ring};
 use dashu_int::IBig;
 use dashu_int::ops::{Gcd, UnsignedAbs};
 
-/// The coefficients of 1, t, t^2, ...; the last one is not zero, and zero has none.
+/// A polynomial by its coefficients of 1, t, t^2, ... The last one is not zero; zero has none.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Polynomial(Vec<IBig>);
 
@@ -20,12 +20,12 @@ impl Polynomial {
         self.0.is_empty()
     }
 
-    /// That of zero is 0 too.
+    /// Degree; 0 for the zero polynomial too.
     pub(super) fn degree(&self) -> usize {
         self.0.len().saturating_sub(1)
     }
 
-    /// The sign of the coefficient of 1, which is all of a polynomial of degree 0.
+    /// Sign of the coefficient of 1, which is the whole polynomial at degree 0.
     pub(super) fn sign_of_constant(&self) -> i8 {
         self.0.first().map_or(0, Exact::sign)
     }
@@ -35,30 +35,31 @@ impl Polynomial {
         Self::new(terms.map(|(i, x)| x * IBig::from(i)).collect())
     }
 
-    /// The value at n / 2^bits, times 2^(bits * degree), which does not change its sign.
+    /// Value at n / 2^bits, times 2^(bits * degree), which does not change its sign.
     pub(super) fn at(&self, n: &IBig, bits: usize) -> IBig {
         let mut terms = self.0.iter().rev().enumerate();
         let lead = terms.next().map_or(IBig::ZERO, |(_, lead)| lead.clone());
         terms.fold(lead, |sum, (i, x)| sum * n + (x << (bits * i)))
     }
 
-    /// The sign of the value at n / 2^bits.
+    /// Sign of the value at n / 2^bits.
     pub(super) fn sign_at(&self, n: &IBig, bits: usize) -> i8 {
         Exact::sign(&self.at(n, bits))
     }
 
-    /// The sign that it has everywhere in [low, high] / 2^bits, ends included, if that can be seen.
+    /// Sign on all of [low, high] / 2^bits, ends included, if the Bernstein coefficients show it.
     ///
-    /// With t = low + (high - low) x the interval is that of x from 0 to 1, where a polynomial lies between the least and the largest of
-    /// its coefficients in the basis of Bernstein. As the interval shrinks to a point, all of them tend to the value there; so the
-    /// sign is seen sooner or later unless that value is zero.
+    /// With t = low + (high - low) x, the variable x runs from 0 to 1. There a polynomial lies
+    /// between the least and the largest of its Bernstein coefficients. As the interval shrinks to
+    /// a point, they all tend to the value there. So the sign shows sooner or later, unless that
+    /// value is zero.
     pub(super) fn sign_on(&self, low: &IBig, high: &IBig, bits: usize) -> Option<i8> {
         let Some(lead) = self.0.last() else {
             return Some(0);
         };
         let degree = self.degree();
         let width = high - low;
-        // Coefficients of powers of x, by Horner's rule: times (low + width x), plus the next.
+        // Coefficients of powers of x by Horner's rule: times (low + width x), plus the next.
         let mut powers = vec![lead.clone()];
         for (i, next) in self.0.iter().rev().enumerate().skip(1) {
             powers.push(IBig::ZERO);
@@ -71,7 +72,8 @@ impl Polynomial {
                 powers[j] = &powers[j] * low + below;
             }
         }
-        // Bernstein's coefficient j, times degree!: the sum over i <= j of powers[i] (j choose i) / (degree choose i).
+        // Bernstein coefficient j times degree!: the sum over i <= j of powers[i] (j choose i) /
+        // (degree choose i).
         let falling = |n: usize, count: usize| (0..count).map(|i| n - i).product::<usize>();
         let mut signs = (0..=degree).map(|j| {
             let terms = (0..=j).map(|i| {
@@ -84,9 +86,9 @@ impl Polynomial {
         (first != 0 && signs.all(|sign| sign == first)).then_some(first)
     }
 
-    /// Without the common divisor of its coefficients.
+    /// Divides by the common divisor of the coefficients.
     fn primitive(self) -> Self {
-        // The last one first, as it is not zero.
+        // The last one first, since it is not zero.
         let magnitudes = self.0.iter().rev().map(UnsignedAbs::unsigned_abs);
         match magnitudes.reduce(Gcd::gcd) {
             None => self,
@@ -97,7 +99,7 @@ impl Polynomial {
         }
     }
 
-    /// Quotient and remainder of its product with some integer other than zero.
+    /// Pseudo-division: quotient and remainder of this polynomial times a non-zero integer.
     fn divided(&self, divisor: &Self) -> [Self; 2] {
         let lead = divisor.0.last().expect("the divisor is not zero");
         let mut rest = self.clone();
@@ -117,7 +119,8 @@ impl Polynomial {
         [Self::new(quotient), rest]
     }
 
-    /// The greatest common divisor, up to a factor: its roots are those that both have, by Euclid.
+    /// Greatest common divisor up to a factor, by Euclid's algorithm. Its roots are the common
+    /// roots.
     pub(super) fn gcd(&self, other: &Self) -> Self {
         let (mut a, mut b) = (self.clone().primitive(), other.clone().primitive());
         while !b.is_zero() {
@@ -127,7 +130,9 @@ impl Polynomial {
         a
     }
 
-    /// The polynomial that has the same roots, each once, up to a factor: what is divided out is what it has in common with its derivative.
+    /// Squarefree part up to a factor: the same roots, each once.
+    ///
+    /// Divides by what the polynomial and its derivative have in common.
     pub(super) fn squarefree(&self) -> Self {
         if self.degree() == 0 {
             return self.clone();

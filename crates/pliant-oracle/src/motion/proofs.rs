@@ -1,18 +1,9 @@
-//! Answers about motion checked by means that have nothing to do with roots of polynomials.
+//! Proofs of answers about motion, by means that use no roots of polynomials.
 //!
-//! **Apart.** If a direction has a positive product with all differences of corners at two times, then at all times between, as these
-//! products change linearly; and the origin is not in their hull. So a list of intervals, each with a direction, that cover [0, t] is a
-//! proof that there is no contact. It is looked for by bisection, with directions computed in `f64`, and checked in integers.
-//!
-//! **In contact.** Let the four corners change their orientation between two times: at some time between they are in one plane, and the
-//! origin in that of the differences, which are the corners of a triangle or of a parallelogram. If the products of some direction with all
-//! q x r, for neighbouring corners q and r, are positive all the time, then the corners go round the origin, which is inside. As
-//! these are quadratic, three positive coefficients in the basis of Bernstein are enough.
-//!
-//! At a time which is a fraction, everything is decided as for elements at rest.
-//!
-//! Motions that touch in a single point, or leave the plane to where they came from, have no such proof unless the time is a fraction. They
-//! are counted: few are left.
+//! Elements are proven apart by a list of separating directions, and in contact by a change of
+//! orientation. Both are searched in `f64` and checked in integers. At a dyadic time everything is
+//! decided as for elements at rest. Motions that touch in a single point, or return to the side
+//! they came from, have no such proof at other times. They are counted: few are left.
 
 use super::*;
 use crate::Random;
@@ -22,10 +13,10 @@ use dashu_int::ops::BitTest;
 /// A direction or a point.
 type Place = Vector<IBig>;
 
-/// Differences of corners at the start and the end, in the order of the polygon that they are the corners of.
+/// Differences of corners at the start and the end, in the order of the polygon that they form.
 struct Differences([Vec<Place>; 2]);
 
-/// n / 2^bits.
+/// A dyadic time n / 2^bits.
 #[derive(Clone, Copy)]
 struct Time {
     n: u64,
@@ -37,7 +28,7 @@ impl Time {
         self.n as f64 / 2f64.powi(self.bits as i32)
     }
 
-    /// In units of 2^-bits.
+    /// Changes the unit to 2^-bits; the time stays.
     fn with_bits(self, bits: u32) -> Self {
         let n = self.n << (bits - self.bits);
         Self { n, bits }
@@ -57,7 +48,7 @@ impl Differences {
             let all = pairs.iter().map(|&[i, j]| minus(&corner(i), &corner(j)));
             all.collect::<Vec<_>>()
         });
-        // All axes about as large, which changes no answer.
+        // Makes all axes about equally large, which changes no answer.
         let most = [0, 1, 2].map(|axis| {
             at.iter()
                 .flatten()
@@ -73,7 +64,7 @@ impl Differences {
         Self(at)
     }
 
-    /// Times 2^bits.
+    /// The differences at a time, multiplied by 2^bits.
     fn then(&self, time: Time) -> Vec<Place> {
         let [from, to] = [IBig::from((1 << time.bits) - time.n), IBig::from(time.n)];
         let both = self.0[0].iter().zip(&self.0[1]);
@@ -82,7 +73,7 @@ impl Differences {
         mixed.collect()
     }
 
-    /// Up to a factor, and rounding.
+    /// The differences in the middle of an interval, up to a factor and rounding.
     fn roughly_between(&self, from: Time, to: Time) -> Vec<[f64; 3]> {
         let bits = from.bits.max(to.bits) + 1;
         let n = u64::midpoint(from.with_bits(bits).n, to.with_bits(bits).n);
@@ -93,7 +84,11 @@ impl Differences {
         points.iter().map(|p| p.each_ref().map(small)).collect()
     }
 
-    /// Whether a proof was found that they are apart on all of [from, to].
+    /// Whether a proof was found that the elements are apart on all of [from, to].
+    ///
+    /// A separating direction has a positive product with all differences at two times. Then it has
+    /// at all times between, as products change linearly, and the origin is not in the hull. A list
+    /// of intervals with directions that covers [from, to] is a proof. Bisection looks for it.
     fn are_apart(&self, from: Time, to: Time, budget: &mut u32) -> bool {
         if *budget == 0 {
             return false;
@@ -119,7 +114,13 @@ impl Differences {
             }
     }
 
-    /// Whether a proof was found that there is contact between.
+    /// Whether a proof was found that there is contact in the interval.
+    ///
+    /// The four corners change their orientation, so at some time they are in one plane. The origin
+    /// then is in the plane of the differences, which form a triangle or a parallelogram. Some
+    /// direction has positive products with q x r for all neighbouring differences q and r, all the
+    /// time. So the differences go around the origin, which is inside. The products are quadratic:
+    /// three positive Bernstein coefficients are enough.
     fn meet_between(&self, from: Time, to: Time) -> bool {
         let ends = [from, to].map(|time| self.then(time));
         let volume = |p: &[Place]| Exact::sign(&determinant(&p[0], &p[1], &p[2]));
@@ -159,7 +160,7 @@ fn rough_dot(p: [f64; 3], q: [f64; 3]) -> f64 {
     (0..3).map(|axis| p[axis] * q[axis]).sum()
 }
 
-/// The same direction in integers, up to rounding.
+/// Converts a direction to integers, up to rounding.
 fn whole(n: [f64; 3]) -> Place {
     let most = n.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     if most == 0.0 || !most.is_finite() {
@@ -168,8 +169,11 @@ fn whole(n: [f64; 3]) -> Place {
     n.map(|x| IBig::from((x / most * 2f64.powi(60)) as i64))
 }
 
-/// Directions that may have positive products with all points: axes, the points, across two, from the line of two, from the plane of
-/// three; and the opposite ones.
+/// Directions that may have positive products with all points, each in one of its two senses.
+///
+/// - axes and the points
+/// - from the line of two points, and normals of their plane with the origin
+/// - normals of the plane of three points
 fn directions(p: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let minus = |p: [f64; 3], q: [f64; 3]| [0, 1, 2].map(|axis| p[axis] - q[axis]);
     let mut all: Vec<[f64; 3]> = p.to_vec();
@@ -187,7 +191,7 @@ fn directions(p: &[[f64; 3]]) -> Vec<[f64; 3]> {
         n[axis] = 1.0;
         all.push(n);
     }
-    // The one of the two that all are on the side of, about.
+    // The sense on whose side most of the points are.
     for n in &mut all {
         if p.iter().map(|&q| rough_dot(*n, q)).sum::<f64>() < 0.0 {
             *n = n.map(|x| -x);
@@ -196,7 +200,7 @@ fn directions(p: &[[f64; 3]]) -> Vec<[f64; 3]> {
     all
 }
 
-/// How many answers there were of a kind, and how many of them were proven.
+/// Number of answers of a kind, and number of proven ones.
 #[derive(Clone, Copy, Debug, Default)]
 struct Share {
     all: u32,
@@ -217,7 +221,7 @@ impl Share {
 const START: Time = Time { n: 0, bits: 0 };
 const END: Time = Time { n: 1, bits: 0 };
 
-/// The last multiple of 2^-bits that is not after the contact.
+/// Last multiple of 2^-bits that is not after the contact.
 fn before(first: &FirstContact, bits: u32) -> Time {
     let (mut low, mut high) = (0, 1_u64 << bits);
     while low < high {
@@ -236,7 +240,7 @@ fn answers_have_proofs() {
     let mut total = [Share::default(); 3];
     for class in MotionClass::ALL {
         let mut random = Random::new(3);
-        // Never in contact, not before, then.
+        // Answers of three kinds: never in contact, not before a time, and at a time.
         let mut shares = [Share::default(); 3];
         for _ in 0..400 {
             let (elements, motion) = class.motion(&mut random);
@@ -289,7 +293,7 @@ fn answers_have_proofs() {
     assert!(total.iter().all(|share| share.is_at_least(90)), "{total:?}");
 }
 
-/// Where elements at rest meet, at one of many times, they have met by then.
+/// Contact found at rest, at one of many times, is never before the first contact.
 #[test]
 fn no_contact_is_seen_before_the_first() {
     let mut seen = 0;
@@ -300,7 +304,7 @@ fn no_contact_is_seen_before_the_first() {
             let differences = Differences::new(elements, &motion);
             let first = first_contact(elements, &motion);
             for n in 0..=48 {
-                // Every part of 32, and a few tiny ones from the start and from the end.
+                // Every 32nd of the step, and a few tiny parts from its start and its end.
                 let time = match n {
                     0..=32 => Time { n, bits: 5 },
                     33..=40 => Time {

@@ -1,10 +1,10 @@
-//! One frame as an image, without a browser and without a GPU: flat triangles, those that intersect in red, and faintly
-//! so where others hide them.
+//! Software renderer: one frame as an image, without a browser and without a GPU.
 //!
-//! A picture of a place shows it and what is round it, and everything in an inset, where a frame marks the place.
-//!
-//! Looks along one direction, without perspective, so that parallel edges stay so; the bodies fill the image. Four samples a
-//! pixel. Sums, products, quotients and square roots in double precision only, in a fixed order: the same bytes on every machine.
+//! Triangles are flat; intersecting ones are red, and faintly so where others hide them. The
+//! projection is parallel, without perspective, and the bodies fill the image. A picture of a place
+//! shows it and its surroundings, and an inset of everything, where a frame marks the place. There
+//! are four samples a pixel. All computation is sums, products, quotients and square roots in
+//! double precision, in a fixed order: the same bytes on every machine.
 
 mod letters;
 mod raster;
@@ -17,7 +17,7 @@ use raster::Canvas;
 use std::io::{self, Write};
 use std::str::FromStr;
 
-/// Pixels across and down.
+/// Default size of a picture: pixels across and down.
 pub const SIZE: [usize; 2] = [1280, 960];
 
 const PAPER: Colour = [255, 255, 255];
@@ -25,13 +25,13 @@ const PAPER: Colour = [255, 255, 255];
 const INK: Colour = [0x1e, 0x20, 0x24];
 const LINE: Colour = [0xe5, 0xe3, 0xde];
 
-/// Part of the picture that the inset takes, each way.
+/// Size of the inset, as a part of the picture in each direction.
 const INSET: f64 = 0.28;
 
-/// From where one looks; y is up.
+/// Direction of view; y is up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum View {
-    /// From the right, from above, from the front. The page's camera begins there too.
+    /// From the right, from above, from the front, where the page's camera begins too.
     #[default]
     Corner,
     /// Against z.
@@ -49,7 +49,7 @@ pub enum View {
 }
 
 impl View {
-    /// All of them, by the names that people type.
+    /// All views, by the names that people type.
     pub const NAMES: [(&str, Self); 7] = [
         ("corner", Self::Corner),
         ("front", Self::Front),
@@ -60,7 +60,7 @@ impl View {
         ("bottom", Self::Bottom),
     ];
 
-    /// Towards the eye, to its right, and up.
+    /// Unit vectors towards the eye, to its right, and up.
     fn directions(self) -> [[f64; 3]; 3] {
         let (eye, up) = match self {
             Self::Corner => ([0.55, 0.45, 1.0], [0.0, 1.0, 0.0]),
@@ -89,38 +89,40 @@ impl FromStr for View {
     }
 }
 
-/// What a picture shows.
+/// Settings of a picture.
 #[derive(Clone, Debug, Default)]
 pub struct Shot<'a> {
-    /// Pixels across and down; [`SIZE`] if either is 0.
+    /// Size: pixels across and down; [`SIZE`] if either is 0.
     pub size: [usize; 2],
-    /// From where.
+    /// Direction of view.
     pub view: View,
-    /// The place that fills the picture; everything does if there is none.
+    /// Place that fills the picture; `None` for everything.
     pub spot: Option<&'a Spot>,
-    /// A line below.
+    /// Caption: a line of text in the upper left corner, as far as there is room.
     pub caption: String,
 }
 
-/// Red, green and blue of each pixel, row by row from the top.
+/// An image: red, green and blue of each pixel, row by row from the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
-    /// Pixels across and down.
+    /// Size: pixels across and down.
     pub size: [usize; 2],
     /// Three bytes a pixel.
     pub pixels: Vec<u8>,
 }
 
 impl Picture {
-    /// The bodies of a world as they are now; red are the triangles in `pairs`: body, triangle, body, triangle. Behind others they
-    /// shine through.
+    /// Draws the bodies of a world as they are now, from the default view.
+    ///
+    /// Triangles in `pairs` (body, triangle, body, triangle) are red, and shine through others that
+    /// hide them. O(b p + t + s) for b bodies, p pairs, t triangles and s samples that these cover.
     pub fn of<S: Scalar>(world: &World<S>, pairs: &[[u32; 4]], size: [usize; 2]) -> Self {
         let directions = View::Corner.directions();
         let triangles = seen_of(world, pairs, directions);
-        draw(&triangles, size, frame_of(corners_of(&triangles)))
+        draw(&triangles, size, rectangle_of(corners_of(&triangles)))
     }
 
-    /// The same as somebody wants it.
+    /// Draws a picture of a world with the settings of a [`Shot`].
     pub fn shot<S: Scalar>(world: &World<S>, pairs: &[[u32; 4]], shot: &Shot) -> Self {
         let size = if shot.size.contains(&0) {
             SIZE
@@ -129,11 +131,11 @@ impl Picture {
         };
         let directions = shot.view.directions();
         let triangles = seen_of(world, pairs, directions);
-        let whole = frame_of(corners_of(&triangles));
+        let whole = rectangle_of(corners_of(&triangles));
         let mut picture = match shot.spot {
             None => draw(&triangles, size, whole),
             Some(spot) => {
-                let there = frame_of(box_seen(spot, directions).into_iter());
+                let there = rectangle_of(box_seen(spot, directions).into_iter());
                 let mut picture = draw(&triangles, size, near(there, whole));
                 let inset = size.map(|length| (INSET * length as f64) as usize);
                 if inset.iter().all(|&length| length > 16) {
@@ -148,7 +150,8 @@ impl Picture {
         picture
     }
 
-    /// Another picture in the lower right corner, framed, with a part of it marked: left, top, right, bottom.
+    /// Puts another picture into the lower right corner, framed, and marks a part of it: left, top,
+    /// right, bottom.
     fn inlay(&mut self, small: &Self, marked: [usize; 4]) {
         let [width, height] = small.size;
         let from = [self.size[0] - width - 8, self.size[1] - height - 8];
@@ -176,7 +179,7 @@ impl Picture {
         }
     }
 
-    /// A line of text in the upper left corner, as long as there is room.
+    /// Writes a line of text into the upper left corner, as far as there is room.
     fn write(&mut self, text: &str) {
         const SCALE: usize = 2;
         const MARGIN: usize = 12;
@@ -193,7 +196,7 @@ impl Picture {
         }
     }
 
-    /// Colours a pixel; nothing where there is none.
+    /// Sets the colour of a pixel, if it is in the picture.
     fn dot(&mut self, [x, y]: [usize; 2], colour: Colour) {
         if x < self.size[0] && y < self.size[1] {
             let at = 3 * (y * self.size[0] + x);
@@ -201,11 +204,11 @@ impl Picture {
         }
     }
 
-    /// Writes a PNG.
+    /// Writes the picture as a PNG.
     ///
     /// # Errors
     ///
-    /// Those of writing.
+    /// The writer fails, or the encoder refuses the picture.
     pub fn write_png(&self, to: impl Write) -> io::Result<()> {
         let [width, height] = self
             .size
@@ -221,14 +224,14 @@ impl Picture {
     }
 }
 
-/// A triangle as the eye sees it: to the right, up, towards the eye.
+/// A triangle in the coordinates of the view: to the right, up, towards the eye.
 struct Seen {
     corners: [[f64; 3]; 3],
     colour: Colour,
     is_hit: bool,
 }
 
-/// What is seen of the bodies.
+/// Triangles of all bodies in the coordinates of a view.
 fn seen_of<S: Scalar>(
     world: &World<S>,
     pairs: &[[u32; 4]],
@@ -240,7 +243,7 @@ fn seen_of<S: Scalar>(
     };
     let mut triangles = Vec::new();
     for (number, body) in world.bodies().enumerate() {
-        // Bodies of this world; neither fails.
+        // Cannot fail: the bodies are this world's.
         let (Ok(corners), Ok(positions)) = (world.triangles(body), world.positions(body)) else {
             continue;
         };
@@ -253,7 +256,7 @@ fn seen_of<S: Scalar>(
                 }
             }
         }
-        // Numbers that an edit has left empty are nothing to see.
+        // Numbers that an edit has left empty are not drawn.
         let live = corners.iter().enumerate();
         let live = live.filter(|(_, corners)| corners.iter().all(|&it| it != u32::MAX));
         triangles.extend(live.map(|(triangle, corners)| {
@@ -268,14 +271,14 @@ fn seen_of<S: Scalar>(
     triangles
 }
 
-/// A rectangle that is seen: its lower and its upper corner.
-type Frame = [[f64; 2]; 2];
+/// A rectangle in the view: lower and upper corner.
+type Rectangle = [[f64; 2]; 2];
 
 fn corners_of(triangles: &[Seen]) -> impl Iterator<Item = [f64; 3]> {
     triangles.iter().flat_map(|triangle| triangle.corners)
 }
 
-fn frame_of(corners: impl Iterator<Item = [f64; 3]>) -> Frame {
+fn rectangle_of(corners: impl Iterator<Item = [f64; 3]>) -> Rectangle {
     let (mut lower, mut upper) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for corner in corners {
         for axis in 0..2 {
@@ -286,7 +289,7 @@ fn frame_of(corners: impl Iterator<Item = [f64; 3]>) -> Frame {
     [lower, upper]
 }
 
-/// The corners of a place's box, as they are seen.
+/// Corners of a place's bounding box in the coordinates of a view.
 fn box_seen(spot: &Spot, [eye, right, up]: [[f64; 3]; 3]) -> [[f64; 3]; 8] {
     std::array::from_fn(|corner| {
         let at: [f64; 3] =
@@ -295,24 +298,28 @@ fn box_seen(spot: &Spot, [eye, right, up]: [[f64; 3]; 3]) -> [[f64; 3]; 8] {
     })
 }
 
-/// A place and what is round it, not smaller than a twentieth of everything.
-fn near([lower, upper]: Frame, [all_lower, all_upper]: Frame) -> Frame {
+/// Rectangle of a place and its surroundings, at least a twentieth of everything.
+fn near([lower, upper]: Rectangle, [all_lower, all_upper]: Rectangle) -> Rectangle {
     let side = |lower: [f64; 2], upper: [f64; 2]| (upper[0] - lower[0]).max(upper[1] - lower[1]);
     let half = (1.1 * side(lower, upper)).max(0.025 * side(all_lower, all_upper));
     let middle: [f64; 2] = std::array::from_fn(|axis| f64::midpoint(lower[axis], upper[axis]));
     [middle.map(|x| x - half), middle.map(|x| x + half)]
 }
 
-/// Samples a unit, where a frame fills a picture but for a margin of a twentieth on every side; two samples a pixel each way.
-fn scale_of([lower, upper]: Frame, size: [usize; 2]) -> f64 {
+/// Scale in samples a unit, at which a rectangle fills a picture.
+///
+/// The margin is a twentieth of the picture on every side. There are two samples a pixel in each
+/// direction.
+fn scale_of([lower, upper]: Rectangle, size: [usize; 2]) -> f64 {
     let scale = (0..2)
         .map(|axis| 0.9 * 2.0 * size[axis] as f64 / (upper[axis] - lower[axis]))
         .fold(f64::INFINITY, f64::min);
     if scale.is_finite() { scale } else { 1.0 }
 }
 
-/// Where a place is in a picture of everything, in pixels: left, top, right, bottom; large enough to be seen.
-fn mark(there: Frame, whole: Frame, size: [usize; 2]) -> [usize; 4] {
+/// Rectangle of a place in a picture of everything, in pixels: left, top, right, bottom; large
+/// enough to be seen.
+fn mark(there: Rectangle, whole: Rectangle, size: [usize; 2]) -> [usize; 4] {
     let scale = scale_of(whole, size) / 2.0;
     let pixel = |axis: usize, x: f64, room: f64| {
         let from_middle = (x - f64::midpoint(whole[0][axis], whole[1][axis])) * scale;
@@ -331,9 +338,9 @@ fn mark(there: Frame, whole: Frame, size: [usize; 2]) -> [usize; 4] {
     ]
 }
 
-fn draw(triangles: &[Seen], size: [usize; 2], frame: Frame) -> Picture {
-    let scale = scale_of(frame, size);
-    let [lower, upper] = frame;
+fn draw(triangles: &[Seen], size: [usize; 2], rectangle: Rectangle) -> Picture {
+    let scale = scale_of(rectangle, size);
+    let [lower, upper] = rectangle;
     let samples = size.map(|length| 2.0 * length as f64);
     let middle: [f64; 2] = std::array::from_fn(|axis| f64::midpoint(lower[axis], upper[axis]));
     let mut canvas = Canvas::new(size.map(|length| 2 * length), PAPER);
@@ -357,7 +364,7 @@ fn draw(triangles: &[Seen], size: [usize; 2], frame: Frame) -> Picture {
     }
 }
 
-/// A colour in the light, which comes from the eye and a little from its upper left.
+/// Shades a colour: the light comes from the eye, a little from its upper left.
 fn lit(colour: Colour, [a, b, c]: [[f64; 3]; 3]) -> Colour {
     let light = unit([-0.3, -0.4, 1.0]);
     let normal = unit(cross(minus(b, a), minus(c, a)));
@@ -381,7 +388,7 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// Of length 1; of nothing, nothing.
+/// Unit vector; a zero vector stays zero.
 fn unit(a: [f64; 3]) -> [f64; 3] {
     let length = dot(a, a).sqrt();
     if length > 0.0 {

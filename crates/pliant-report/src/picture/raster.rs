@@ -1,21 +1,22 @@
-//! Triangles on a grid of samples: the nearest wins, and red behind it shines through.
+//! Rasteriser with a z-buffer: the nearest triangle wins, and red behind it shines through.
 
 use crate::colours::{Colour, HIT};
 
-/// Samples, row by row from the top.
+/// Canvas of samples, row by row from the top.
 pub(super) struct Canvas {
     size: [usize; 2],
     colours: Vec<Colour>,
-    /// How near the eye; larger is nearer.
+    /// Depth of each sample, as nearness to the eye: larger is nearer.
     nearness: Vec<f64>,
     red: Vec<Red>,
 }
 
-/// Where a sample has a triangle that intersects. However many there are and in whatever order they are drawn, it is one answer.
+/// Position of an intersecting triangle at a sample. It does not depend on the number or order of
+/// triangles.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Red {
     Nowhere,
-    /// Behind one that does not: it shines through.
+    /// Behind a triangle that does not intersect: it shines through.
     Behind,
     InFront,
 }
@@ -30,8 +31,9 @@ impl Canvas {
         }
     }
 
-    /// Draws a triangle in samples, x to the right, y down, z towards the eye. Where two are equally near, one that intersects
-    /// wins, and then the one before.
+    /// Draws a triangle in samples: x to the right, y down, z towards the eye.
+    ///
+    /// Of two that are equally near, an intersecting one wins, then the earlier one.
     pub(super) fn triangle(&mut self, [a, b, c]: [[f64; 3]; 3], colour: Colour, is_hit: bool) {
         let area = side(a, b, [c[0], c[1]]);
         if area == 0.0 || !area.is_finite() {
@@ -74,13 +76,14 @@ impl Canvas {
         }
     }
 
-    /// Draws the edges of a triangle that intersects where it covers less than a pixel each way and might be on no sample at all.
+    /// Draws the edges of an intersecting triangle that is smaller than a pixel and might cover no
+    /// sample.
     pub(super) fn edges_of_small(&mut self, [a, b, c]: [[f64; 3]; 3], colour: Colour) {
         const PIXEL: f64 = 2.0;
         let size = side(a, b, [c[0], c[1]]).abs();
         let long = |p: [f64; 3], q: [f64; 3]| (p[0] - q[0]).abs().max((p[1] - q[1]).abs());
         let longest = long(a, b).max(long(b, c)).max(long(c, a));
-        // Narrow triangles too: their height is twice the area by their longest side.
+        // Narrow triangles too: their height is twice the area divided by their longest side.
         let is_small = size < PIXEL * longest.max(PIXEL);
         let is_near = longest < 4.0 * (self.size[0] + self.size[1]) as f64;
         if !is_small || !is_near {
@@ -96,7 +99,8 @@ impl Canvas {
         }
     }
 
-    /// A whole pixel of something that intersects: a sample alone would be a quarter as red.
+    /// Colours a whole pixel of an intersecting triangle, since one sample would be a quarter as
+    /// red.
     fn red_at(&mut self, [x, y, near]: [f64; 3], colour: Colour) {
         let is_inside = x >= 0.0 && y >= 0.0 && x < self.size[0] as f64 && y < self.size[1] as f64;
         if !is_inside {
@@ -115,7 +119,7 @@ impl Canvas {
         }
     }
 
-    /// An image of half the size: each pixel the mean of its four samples.
+    /// Image of half the size: each pixel is the mean of its four samples.
     pub(super) fn halved(&self) -> Vec<u8> {
         let [width, height] = self.size;
         let mut pixels = Vec::with_capacity(width * height / 4 * 3);
@@ -135,7 +139,7 @@ impl Canvas {
         pixels
     }
 
-    /// What is in front, a third of it red where red is behind.
+    /// Colour of a sample: the front, with a third of red if red is behind.
     fn shown(&self, sample: usize) -> Colour {
         let front = self.colours[sample];
         if self.red[sample] != Red::Behind {
@@ -148,7 +152,8 @@ impl Canvas {
     }
 }
 
-/// Twice the area of a triangle, its sign the side of the edge from `a` to `b` that `at` is on.
+/// Signed area of a triangle, doubled. Its sign tells the side of the edge from `a` to `b` that
+/// `at` is on.
 fn side(a: [f64; 3], b: [f64; 3], at: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (at[1] - a[1]) - (b[1] - a[1]) * (at[0] - a[0])
 }

@@ -9,7 +9,7 @@ fn square(z: f32) -> [[f32; 3]; 4] {
     [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z], [1.0, 1.0, z]]
 }
 
-/// As many frames as there are counts; the pairs are made up.
+/// Records one frame for each count, with made-up pairs.
 fn record(mut recorder: Recorder, counts: &[usize]) -> Motion {
     let mut world = World::<f32>::new();
     let bodies = [0.0, 1.0].map(|z| world.add(&TRIANGLES, &square(z)).unwrap());
@@ -47,7 +47,7 @@ fn page_of(label: &str, chart: &str) -> String {
     report.page()
 }
 
-/// What stands between the first `<tag ...id` and its end.
+/// The JSON of the page, which the viewer reads.
 fn head_of(page: &str) -> serde_json::Value {
     let start = page.find(r#"id="report">"#).unwrap() + r#"id="report">"#.len();
     let end = start + page[start..].find("</script").unwrap();

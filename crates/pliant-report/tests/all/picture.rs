@@ -1,4 +1,5 @@
-//! A frame as an image: the same bytes everywhere, the nearest in front, what intersects in red, also behind others.
+//! Pictures: equal bytes everywhere, the nearest in front, intersections in red, also behind
+//! others.
 
 use pliant::{Selection, World};
 use pliant_report::Spot;
@@ -66,6 +67,8 @@ fn decode(bytes: &[u8]) -> Picture {
     }
 }
 
+/// Compares with the golden picture.
+///
 /// `PLIANT_GOLDEN=write cargo test -p pliant-report` writes it anew; then look at it.
 #[test]
 fn the_picture_is_the_one_that_was_looked_at() {
@@ -104,7 +107,7 @@ fn red_is_what_intersects_and_nothing_else() {
     };
     assert_eq!(red(&[]), 0);
     assert!(red(&pairs) > 50);
-    // A body that there is not, a triangle that there is not: nobody is painted for them.
+    // A body or a triangle that does not exist paints nothing.
     assert_eq!(red(&[[7, 0, 8, 1], [0, 9999, 1, 9999]]), 0);
 }
 
@@ -132,7 +135,7 @@ fn the_nearer_triangle_hides_the_other() {
 fn what_intersects_shines_through_what_hides_it() {
     let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
     let faces = [[0, 1, 2], [0, 2, 3]];
-    // Whatever the order, and however much hides it or is hidden.
+    // For every order, and whatever hides it or is hidden.
     let sheets = [0.0, 1e-3, 2e-3, 3e-3];
     let orders = [[0, 1, 2, 3], [3, 2, 1, 0], [2, 0, 3, 1], [1, 3, 0, 2]];
     for order in orders {
@@ -173,14 +176,14 @@ fn any_shape_gives_a_picture() {
         let picture = Picture::of(&world, &[[0, 0, 0, 1]], [16, 12]);
         assert_eq!(picture.pixels.len(), 3 * 16 * 12);
         let drawn = picture.pixels.chunks(3).any(is_reddish);
-        // The smallest numbers have no products to tell sides by.
+        // Products of the smallest numbers vanish, so that no side can be told.
         assert!(drawn || scale < 1e-150, "{scale}");
     }
     let empty = Picture::of(&World::<f32>::new(), &[], [4, 2]);
     assert_eq!(empty.pixels, [255; 24]);
 }
 
-/// How many pixels of a part of a picture are reddish: columns, rows.
+/// Number of reddish pixels in some columns and rows of a picture.
 fn red_in(
     picture: &Picture,
     columns: std::ops::Range<usize>,
@@ -194,7 +197,7 @@ fn red_in(
 
 #[test]
 fn a_place_fills_the_picture_and_is_marked_in_an_inset() {
-    // A wide sheet, and far in a corner of it a thorn.
+    // A wide sheet, and a thorn far in a corner of it.
     let mut world = World::<f32>::new();
     let wide = [[0.0, 0.0, 0.0], [1000.0, 0.0, 0.0], [0.0, 1000.0, 0.0]];
     world.add(&[[0, 1, 2]], &wide).unwrap();
@@ -248,7 +251,7 @@ fn a_place_fills_the_picture_and_is_marked_in_an_inset() {
     );
     let place = red_in(&front, 100..220, 60..170);
     assert!(place > 20, "{place} red pixels in the middle");
-    // Without a place everything, as it always was, but for the caption.
+    // Without a place, the picture of everything, without a caption.
     let whole = Shot {
         spot: None,
         caption: String::new(),
@@ -260,7 +263,7 @@ fn a_place_fills_the_picture_and_is_marked_in_an_inset() {
     );
     assert_eq!("left".parse(), Ok(View::Left));
     assert!("above".parse::<View>().unwrap_err().contains("top"));
-    // Nothing is too small to be drawn, or too strange.
+    // No size is too small, and no shape too strange.
     for size in [[1, 1], [17, 3], [3, 40]] {
         let empty = Picture::shot(
             &World::<f64>::new(),
@@ -286,7 +289,8 @@ fn hits_smaller_than_a_pixel_are_seen() {
         [1000.0, 1000.0, 0.0],
     ];
     world.add(&[[0, 1, 2], [1, 3, 2]], &wide).unwrap();
-    // Between samples, in front of the sheet; and a needle as long as the sheet and thinner than a pixel.
+    // Dust between samples, in front of the sheet; and a needle as long as the sheet, thinner than
+    // a pixel.
     let dust = [
         [500.1, 500.1, 1.0],
         [500.2, 500.1, 1.0],

@@ -10,12 +10,12 @@ use crate::selection::Selection;
 use std::collections::BTreeSet;
 
 pub(crate) struct Bodies<S> {
-    /// In no order that matters: a removed body's place is taken by the last. Each in memory of its own, so that a list that grows holds no
-    /// room for bodies that are not there.
-    pub(crate) list: Vec<Box<Body<S>>>,
+    /// In no order that matters: a removed body's place is taken by the last. Each in memory of its
+    /// own, so that a list that grows holds no room for bodies that are not there.
+    list: Vec<Box<Body<S>>>,
     /// By rank: the ids in order, and where the bodies stand in the list.
-    pub(crate) ids: Vec<BodyId>,
-    pub(crate) places: Vec<Place>,
+    ids: Vec<BodyId>,
+    places: Vec<Place>,
     next_id: Option<u32>,
     /// Pairs of bodies that do not meet in queries of the whole world, each pair in both orders.
     ignored: BTreeSet<(BodyId, BodyId)>,
@@ -39,7 +39,8 @@ impl<S: Coordinate> Bodies<S> {
         self.next_id.map(BodyId).ok_or(ErrorKind::TooManyBodies)
     }
 
-    /// No body added from now on has an id below this one; with none, no other can be added. Ids never go back.
+    /// No body added from now on has an id below this one; with none, no other can be added. Ids
+    /// never go back.
     pub(crate) fn skip_ids(&mut self, next: Option<u32>) {
         self.next_id = match (self.next_id, next) {
             (Some(now), Some(next)) => Some(now.max(next)),
@@ -60,8 +61,8 @@ impl<S: Coordinate> Bodies<S> {
 
     /// Adds a body that has the next id.
     pub(crate) fn push(&mut self, body: Body<S>) {
-        self.next_id = body.id.0.checked_add(1);
-        self.ids.push(body.id);
+        self.next_id = body.id().0.checked_add(1);
+        self.ids.push(body.id());
         self.places.push(Place(self.list.len() as u32));
         self.list.push(Box::new(body));
     }
@@ -73,7 +74,7 @@ impl<S: Coordinate> Bodies<S> {
         let place = self.places.remove(rank.index());
         self.list.swap_remove(place.index());
         if let Some(moved) = self.list.get(place.index()) {
-            let rank = self.rank(moved.id)?;
+            let rank = self.rank(moved.id())?;
             self.places[rank.index()] = place;
         }
         let ends = (id, BodyId(0))..=(id, BodyId(u32::MAX));
@@ -98,18 +99,53 @@ impl<S: Coordinate> Bodies<S> {
         Ok(self.places[self.rank(id)?.index()])
     }
 
+    pub(crate) fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// The ids of all bodies, in order.
+    pub(crate) fn ids(&self) -> &[BodyId] {
+        &self.ids
+    }
+
+    /// Where the bodies stand in the list, by rank.
+    #[inline]
+    pub(crate) fn places(&self) -> &[Place] {
+        &self.places
+    }
+
+    #[inline]
+    pub(crate) fn at(&self, place: Place) -> &Body<S> {
+        &self.list[place.index()]
+    }
+
+    #[inline]
+    pub(crate) fn at_mut(&mut self, place: Place) -> &mut Body<S> {
+        &mut self.list[place.index()]
+    }
+
+    /// All bodies, in the order of the list.
+    pub(crate) fn all(&self) -> impl Iterator<Item = &Body<S>> {
+        self.list.iter().map(Box::as_ref)
+    }
+
+    /// The same, to change them.
+    pub(crate) fn all_mut(&mut self) -> impl Iterator<Item = &mut Body<S>> {
+        self.list.iter_mut().map(Box::as_mut)
+    }
+
     /// All bodies in the order of their ids.
     pub(crate) fn in_order(&self) -> impl Iterator<Item = &Body<S>> {
-        self.places.iter().map(|place| &*self.list[place.index()])
+        self.places.iter().map(|&place| self.at(place))
     }
 
     pub(crate) fn get(&self, id: BodyId) -> Result<&Body<S>, Error> {
-        Ok(&self.list[self.place(id)?.index()])
+        Ok(self.at(self.place(id)?))
     }
 
     pub(crate) fn get_mut(&mut self, id: BodyId) -> Result<&mut Body<S>, Error> {
         let place = self.place(id)?;
-        Ok(&mut self.list[place.index()])
+        Ok(self.at_mut(place))
     }
 
     /// The bodies at two different places.
@@ -139,7 +175,7 @@ impl<S: Coordinate> Bodies<S> {
 
     /// Whether two bodies, or one and itself, meet in queries of the whole world.
     pub(crate) fn do_meet(&self, a: &Body<S>, b: &Body<S>) -> bool {
-        a.may_meet(b) && !self.ignored.contains(&(a.id, b.id))
+        a.may_meet(b) && !self.ignored.contains(&(a.id(), b.id()))
     }
 
     /// Refuses a selection that names what is not there.

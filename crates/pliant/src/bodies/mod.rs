@@ -1,24 +1,27 @@
 //! Deforming bodies: each a mesh, the trees over it, and the shape that it has now.
 //!
-//! A `body` is of one `part` or several, trees over runs of its triangles; its `positions` are in the caller's order or in the tree's.
-//! Meshes change by `edits`, which need an `edit_state`. How far a tree has decayed is counted in `decay`, and `mending` builds another
-//! (`mending_state`). `debug_view` and `tree_cut` are for those who look at trees, `validate` looks at every invariant. All bodies of a
-//! world are a `list`.
+//! A `body` joins things that do not know each other's fields: its `mesh`; its `shape`, in the
+//! caller's order or in the tree's; its `motion`; its `parts`, each a tree over a run of triangles;
+//! a `rebuild` of these when they have decayed; and a `filter`, which says what may meet. `checks`
+//! refuse positions, and `build` makes the tree that the options ask for. `debug_view` is for those
+//! who look at trees. All bodies of a world are a `list`.
 
 mod body;
+mod build;
+mod checks;
 mod debug_view;
-mod decay;
-mod edit_state;
-mod edits;
+mod filter;
 mod list;
-mod mending;
-mod mending_state;
+mod mesh;
+mod motion;
 mod part;
-mod positions;
-mod tree_cut;
-mod validate;
+mod parts;
+mod rebuild;
+mod shape;
 
-pub(crate) use body::{Body, Places, validate};
+pub(crate) use body::Body;
+pub(crate) use checks::validate;
 pub use debug_view::{NodeBox, TreeShape};
-pub(crate) use decay::Work;
 pub(crate) use list::Bodies;
+pub(crate) use mesh::Places;
+pub(crate) use rebuild::Work;

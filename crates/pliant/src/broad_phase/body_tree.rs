@@ -75,20 +75,14 @@ impl BodyTree {
         pairs: &mut Vec<Overlap>,
     ) {
         let first = pairs.len();
-        let Self {
-            order,
-            levels,
-            tested,
-            open,
-            ..
-        } = self;
+        let (order, levels, open) = (&self.order, &self.levels, &mut self.open);
         open.clear();
         if let Some(root) = levels.len().checked_sub(1) {
             open.push((root, 0));
         }
         dispatch!(instructions, _i => {
             while let Some((level, node)) = open.pop() {
-                *tested += 1;
+                self.tested += 1;
                 // Of a level that has a node there is every one up to the last.
                 let Some(boxes) = levels[level].get(node) else { continue };
                 let mut overlaps = boxes.overlaps(its_box);

@@ -16,7 +16,8 @@ use crate::kernels::Instructions;
 use crate::threads::Interrupt;
 use body_tree::BodyTree;
 pub(crate) use overlap::Overlap;
-use sweep_and_prune::{Outcome, SweepAndPrune};
+use std::ops::ControlFlow;
+use sweep_and_prune::{SweepAndPrune, Unfinished};
 
 /// Up to so many bodies, comparing all pairs is as good as anything; "approximately 100" (paper, 3.4).
 const MOST_FOR_BRUTE_FORCE: usize = 100;
@@ -65,11 +66,10 @@ impl BroadPhase {
         };
         if self.way == Way::Sweep {
             let most = boxes.len() * MOST_PAIRS_A_BODY;
-            match self.sweep.overlapping(boxes, most, interrupt) {
-                Outcome::Found => {}
-                Outcome::Interrupted => self.sweep = SweepAndPrune::default(),
-                Outcome::TooMany => {
-                    self.sweep = SweepAndPrune::default();
+            let found = self.sweep.overlapping(boxes, most, interrupt);
+            if let ControlFlow::Break(why) = found {
+                self.sweep = SweepAndPrune::default();
+                if why == Unfinished::TooMany {
                     self.way = Way::Tree;
                 }
             }

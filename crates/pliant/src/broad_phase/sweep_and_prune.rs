@@ -53,18 +53,15 @@ impl End {
     }
 
     fn order(self, other: Self) -> Ordering {
-        match (self.belongs_before(other), other.belongs_before(self)) {
-            (true, _) => Ordering::Less,
-            (_, true) => Ordering::Greater,
-            _ => Ordering::Equal,
-        }
+        let by_value = self.value.partial_cmp(&other.value);
+        let by_side = || self.is_upper().cmp(&other.is_upper());
+        by_value.expect("a number").then_with(by_side)
     }
 }
 
-/// How a pass over the lists ended.
+/// Why a pass over the lists did not come to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Outcome {
-    Found,
+pub(super) enum Unfinished {
     Interrupted,
     /// There are more pairs than were to be kept.
     TooMany,
@@ -94,21 +91,15 @@ const NEW: Rank = Rank(u32::MAX);
 const UNINTERRUPTED: usize = 256;
 
 impl SweepAndPrune {
-    /// Brings `pairs` up to date: see [`super::BroadPhase::begin`]. If that did not come to an end, it can not be used again.
+    /// Brings `pairs`, of which there are to be at most so many, up to date: see
+    /// [`super::BroadPhase::begin`]. If that does not come to an end, it breaks, and can not be
+    /// used again.
     pub(super) fn overlapping(
         &mut self,
         boxes: &[Aabb],
         most: usize,
         interrupt: &Interrupt,
-    ) -> Outcome {
-        match self.sort(boxes, most, interrupt) {
-            ControlFlow::Break(outcome) => outcome,
-            ControlFlow::Continue(()) => Outcome::Found,
-        }
-    }
-
-    /// Sorts the lists and finds at most so many pairs. Breaks if that does not come to an end.
-    fn sort(&mut self, boxes: &[Aabb], most: usize, interrupt: &Interrupt) -> ControlFlow<Outcome> {
+    ) -> ControlFlow<Unfinished> {
         self.listed_as.resize(boxes.len(), NEW);
         if std::mem::take(&mut self.some_are_gone) {
             self.forget_the_gone();
@@ -187,13 +178,13 @@ impl SweepAndPrune {
         most: usize,
         budget: &mut usize,
         interrupt: &Interrupt,
-    ) -> ControlFlow<Outcome, bool> {
+    ) -> ControlFlow<Unfinished, bool> {
         self.new.clear();
         self.gone.clear();
         for ends in &mut self.axes {
             for sorted in 1..ends.len() {
                 if sorted.is_multiple_of(UNINTERRUPTED) && interrupt.is_set() {
-                    return ControlFlow::Break(Outcome::Interrupted);
+                    return ControlFlow::Break(Unfinished::Interrupted);
                 }
                 let moving = ends[sorted];
                 let mut place = sorted;
@@ -225,31 +216,25 @@ impl SweepAndPrune {
         }
         self.merge();
         if self.pairs.len() > most {
-            return ControlFlow::Break(Outcome::TooMany);
+            return ControlFlow::Break(Unfinished::TooMany);
         }
         ControlFlow::Continue(true)
     }
 
     /// pairs = (pairs without the gone) with the new.
     fn merge(&mut self) {
-        let Self {
-            pairs,
-            new,
-            gone,
-            next,
-            ..
-        } = self;
-        if new.is_empty() && gone.is_empty() {
+        if self.new.is_empty() && self.gone.is_empty() {
             return;
         }
-        for list in [&mut *new, &mut *gone] {
+        for list in [&mut self.new, &mut self.gone] {
             list.sort_unstable();
             list.dedup();
         }
+        let next = &mut self.next;
         next.clear();
-        let mut new = new.iter().copied().peekable();
-        let mut gone = gone.iter().copied().peekable();
-        for &pair in &*pairs {
+        let mut new = self.new.iter().copied().peekable();
+        let mut gone = self.gone.iter().copied().peekable();
+        for &pair in &self.pairs {
             while let Some(new) = new.next_if(|&new| new < pair) {
                 next.push(new);
             }
@@ -260,7 +245,7 @@ impl SweepAndPrune {
             }
         }
         next.extend(new);
-        pairs.clone_from(next);
+        self.pairs.clone_from(next);
     }
 
     /// Room for all that a later query can note if it finds as many pairs as this one, so that repeated motion allocates
@@ -280,10 +265,10 @@ impl SweepAndPrune {
         boxes: &[Aabb],
         most: usize,
         interrupt: &Interrupt,
-    ) -> ControlFlow<Outcome> {
+    ) -> ControlFlow<Unfinished> {
         for ends in &mut self.axes {
             if interrupt.is_set() {
-                return ControlFlow::Break(Outcome::Interrupted);
+                return ControlFlow::Break(Unfinished::Interrupted);
             }
             ends.sort_unstable_by(|a, b| a.order(*b));
         }
@@ -296,10 +281,10 @@ impl SweepAndPrune {
         self.open.clear();
         for (at, end) in sparsest.iter().enumerate() {
             if at.is_multiple_of(UNINTERRUPTED) && interrupt.is_set() {
-                return ControlFlow::Break(Outcome::Interrupted);
+                return ControlFlow::Break(Unfinished::Interrupted);
             }
             if self.pairs.len() > most {
-                return ControlFlow::Break(Outcome::TooMany);
+                return ControlFlow::Break(Unfinished::TooMany);
             }
             let body = end.body();
             if end.is_upper() {
@@ -367,7 +352,7 @@ mod tests {
     fn check(sweep: &mut SweepAndPrune, boxes: &[Aabb]) {
         let (mut expected, never) = (Vec::new(), Interrupt::default());
         (0..boxes.len() as u32).for_each(|body| brute_force::row(boxes, Rank(body), &mut expected));
-        assert_eq!(sweep.overlapping(boxes, MANY, &never), Outcome::Found);
+        assert!(sweep.overlapping(boxes, MANY, &never).is_continue());
         assert_eq!(sweep.pairs, expected);
     }
 
@@ -455,7 +440,7 @@ mod tests {
         };
         let mut sweep = SweepAndPrune::default();
         let never = Interrupt::default();
-        sweep.overlapping(&row(0.0), MANY, &never);
+        assert!(sweep.overlapping(&row(0.0), MANY, &never).is_continue());
         for step in 1..10 {
             let boxes = row(step as f32 * 0.05);
             check(&mut sweep, &boxes);
@@ -497,6 +482,6 @@ mod tests {
         let question = || true;
         let interrupt = Interrupt::new(Some(&question));
         let outcome = sweep.overlapping(&reversed, MANY, &interrupt);
-        assert_eq!(outcome, Outcome::Interrupted);
+        assert_eq!(outcome, ControlFlow::Break(Unfinished::Interrupted));
     }
 }

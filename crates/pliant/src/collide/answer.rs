@@ -1,8 +1,7 @@
 //! What the tasks of a query of one kind find, and where it goes: what stands behind the doors `Tasks` and `LeafWork`.
 
-use crate::held::{self, Held};
-use crate::kernels::{Buffer, Coordinate};
-use crate::queries::{Batch, Kind, LeafTest, LeafWork};
+use crate::held::{empty, held};
+use crate::queries::{Batch, FoundBy, Kind, LeafTest, LeafWork};
 use crate::statistics::Statistics;
 use crate::threads::Executor;
 use crate::traversal::{Collector, Sink, Task, TaskWork, Tasks};
@@ -14,35 +13,36 @@ const MOST_HITS: usize = 2048;
 /// The tasks of a kind, kept from query to query.
 #[derive(Debug)]
 pub(crate) struct TaskList<K: Kind> {
-    tasks: Vec<(Task, Found<K>)>,
+    tasks: Vec<(Task, Results<K>)>,
     /// How many of them, from the first on, are in use.
     used: usize,
     /// The hit at which a query stopped, in tree order.
     pub(crate) broke_at: Option<K::TreeHit>,
 }
 
-/// What a task has found.
+/// Hits of one task, in tree order and as they are handed over.
 #[derive(Debug)]
-struct Found<K: Kind> {
-    buffers: K::Buffers,
-    /// In tree order.
-    hits: Buffer<K::TreeHit>,
-    /// The same hits as the caller numbers things.
+struct Results<K: Kind> {
+    found: FoundBy<K>,
+    /// The hits as the caller numbers things, for a collector; or as a visitor is shown them.
     of_caller: Vec<K::Hit>,
+    shown: Vec<K::Shown>,
     /// Whether a collector does not take any more.
     are_too_many: bool,
-    statistics: Statistics,
 }
 
 /// A query on its way.
 pub(crate) struct Answer<'q, 's, K: Kind> {
     kind: &'q K,
     list: &'q mut TaskList<K>,
-    sink: Sink<'s, K::Hit>,
+    sink: SinkOf<'s, K>,
 }
 
+/// The sink of a kind's hits.
+pub(crate) type SinkOf<'s, K> = Sink<'s, <K as Kind>::Hit, <K as Kind>::Shown>;
+
 impl<'q, 's, K: Kind> Answer<'q, 's, K> {
-    pub(crate) fn new(kind: &'q K, list: &'q mut TaskList<K>, sink: Sink<'s, K::Hit>) -> Self {
+    pub(crate) fn new(kind: &'q K, list: &'q mut TaskList<K>, sink: SinkOf<'s, K>) -> Self {
         list.broke_at = None;
         Self { kind, list, sink }
     }
@@ -52,10 +52,7 @@ impl<'q, 's, K: Kind> Answer<'q, 's, K> {
     }
 }
 
-impl<K: Kind> Tasks<K::Scalar> for Answer<'_, '_, K>
-where
-    K::Scalar: Coordinate,
-{
+impl<K: Kind> Tasks<K::Scalar> for Answer<'_, '_, K> {
     fn wants_all(&self) -> bool {
         self.sink.collector().is_some()
     }
@@ -63,9 +60,9 @@ where
     fn begin(&mut self, most: usize) {
         let TaskList { tasks, used, .. } = &mut *self.list;
         // They are left as they were where a visitor stopped, or panicked.
-        for (task, found) in &mut tasks[..*used] {
+        for (task, results) in &mut tasks[..*used] {
             task.clear();
-            found.clear();
+            results.clear();
         }
         tasks.resize_with(most.max(tasks.len()), Default::default);
         *used = 1;
@@ -82,11 +79,11 @@ where
 
     fn run(&mut self, executor: Executor, count: usize, work: TaskWork<K::Scalar>) {
         let (kind, collector) = (self.kind, self.sink.collector());
-        executor.run(&mut self.list.tasks[..count], |_, (task, found)| {
+        executor.run(&mut self.list.tasks[..count], |_, (task, results)| {
             let mut bound = Bound {
                 kind,
                 collector,
-                found,
+                results,
             };
             work(task, &mut bound);
         });
@@ -97,17 +94,17 @@ where
             tasks, broke_at, ..
         } = &mut *self.list;
         let tasks = &tasks[..count];
-        for (_, found) in tasks {
-            *statistics += found.statistics;
+        for (_, results) in tasks {
+            *statistics += results.found.statistics;
         }
-        for (_, found) in tasks {
-            if found.are_too_many {
+        for (_, results) in tasks {
+            if results.are_too_many {
                 return ControlFlow::Break(());
             }
             if let Sink::Visitor(visitor) = &mut self.sink
-                && let ControlFlow::Break(place) = visitor(&found.of_caller)
+                && let ControlFlow::Break(place) = visitor(&results.shown)
             {
-                *broke_at = Some(found.hits.as_slice()[place]);
+                *broke_at = Some(results.found.hits.as_slice()[place]);
                 return ControlFlow::Break(());
             }
         }
@@ -119,83 +116,61 @@ where
 struct Bound<'q, K: Kind> {
     kind: &'q K,
     collector: Option<Collector<'q, K::Hit>>,
-    found: &'q mut Found<K>,
+    results: &'q mut Results<K>,
 }
 
 impl<K: Kind> LeafWork<K::Scalar> for Bound<'_, K> {
     fn clear(&mut self) {
-        self.found.clear();
+        self.results.clear();
     }
 
     fn test(&mut self, leaves: &LeafTest<K::Scalar>, batch: Batch) {
-        let Found {
-            buffers,
-            hits,
-            of_caller,
-            statistics,
-            ..
-        } = &mut *self.found;
-        self.kind.test(leaves, batch, buffers, hits, statistics);
-        let new = &hits.as_slice()[of_caller.len()..];
-        self.kind.to_callers(leaves, &leaves.ids, new, of_caller);
+        let (kind, results) = (self.kind, &mut *self.results);
+        let before = results.found.hits.len();
+        kind.test(leaves, batch, &mut results.found);
+        let new = &results.found.hits.as_slice()[before..];
+        if self.collector.is_some() {
+            let hits = new.iter().map(|&hit| kind.to_caller(&leaves.ids, hit));
+            results.of_caller.extend(hits);
+        } else {
+            kind.show(leaves, new, &mut results.shown);
+        }
         if !self.has_room() {
             self.hand_over();
         }
     }
 
     fn has_room(&self) -> bool {
-        self.found.hits.len() < MOST_HITS && !self.found.are_too_many
+        self.results.found.hits.len() < MOST_HITS && !self.results.are_too_many
     }
 
     fn hand_over(&mut self) {
-        let found = &mut *self.found;
+        let results = &mut *self.results;
         if let Some(collector) = self.collector
-            && !found.of_caller.is_empty()
+            && !results.of_caller.is_empty()
         {
-            found.are_too_many |= collector(&found.of_caller).is_break();
-            found.hits.clear();
-            found.of_caller.clear();
+            results.are_too_many |= collector(&results.of_caller).is_break();
+            results.found.hits.clear();
+            results.of_caller.clear();
         }
     }
 }
 
-impl<K: Kind> Found<K> {
+impl<K: Kind> Results<K> {
     /// Forgets what was found.
     fn clear(&mut self) {
-        self.hits.clear();
+        self.found.hits.clear();
+        self.found.statistics = Statistics::default();
         self.of_caller.clear();
+        self.shown.clear();
         self.are_too_many = false;
-        self.statistics = Statistics::default();
     }
 }
 
-impl<K: Kind> Default for Found<K> {
-    fn default() -> Self {
-        Self {
-            buffers: K::Buffers::default(),
-            hits: Buffer::default(),
-            of_caller: Vec::new(),
-            are_too_many: false,
-            statistics: Statistics::default(),
-        }
-    }
-}
+empty!(Results<K: Kind>: found, of_caller, shown, are_too_many);
 
-impl<K: Kind> Default for TaskList<K> {
-    fn default() -> Self {
-        Self {
-            tasks: Vec::new(),
-            used: 0,
-            broke_at: None,
-        }
-    }
-}
+held!(Results<K: Kind>: found, of_caller[], shown[]);
 
-impl<K: Kind> Held for TaskList<K> {
-    fn held(&self) -> usize {
-        let of_tasks = self.tasks.iter().map(|(task, found)| {
-            task.held() + found.buffers.held() + found.hits.held() + held::list(&found.of_caller)
-        });
-        held::list(&self.tasks) + of_tasks.sum::<usize>()
-    }
-}
+empty!(TaskList<K: Kind>: tasks, used, broke_at);
+
+held!(TaskList<K: Kind>: tasks);

@@ -1,19 +1,18 @@
 //! What a world keeps for one kind of query, and how one is answered: all that is found, or shown to a sink until it breaks.
 
-use super::answer::{Answer, TaskList};
-use super::body_pairs::BodyPairs;
+use super::answer::{Answer, SinkOf, TaskList};
+use super::body_pairs::{BodyPair, BodyPairs};
 use super::origin::FloatingOrigin;
 use super::request::Request;
 use super::scheduler::{Scheduler, is_worth_it};
 use super::step::Step;
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, Body};
 use crate::error::{Error, ErrorKind};
-use crate::held::{self, Held};
-use crate::hits::{Hit, Numbered};
+use crate::held::{self, empty, held};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::Options;
 use crate::queries::{Kind, Needs};
-use crate::sort::{Sorter, sort_by_numbers};
+use crate::sort::{Hit, Numbered, Sorter, sort_by_numbers};
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, PerThread, Threads};
 use crate::traversal::{Scratch, Sink, Visitor};
@@ -42,26 +41,14 @@ pub(crate) struct Common<S> {
 pub(crate) struct Asked<K: Kind> {
     pub(crate) tasks: TaskList<K>,
     scheduler: Scheduler<K>,
-    sorter: Sorter<K::Hit>,
+    pub(super) sorter: Sorter<K::Hit>,
     /// Hits that are more than their numbers, of every thread; the first of these lists is that of all in the end.
     lists: PerThread<Vec<K::Hit>>,
+    /// All hits as they were measured, once they are sorted.
+    pub(super) measured: Vec<K::Shown>,
 }
 
-impl<K: Kind> Default for Asked<K> {
-    fn default() -> Self {
-        Self {
-            tasks: TaskList::default(),
-            scheduler: Scheduler::default(),
-            sorter: Sorter::default(),
-            lists: PerThread::default(),
-        }
-    }
-}
-
-impl<K: Kind<Hit: Hit>> Asked<K>
-where
-    K::Scalar: Coordinate,
-{
+impl<K: Kind<Hit: Hit>> Asked<K> {
     /// All hits, sorted.
     pub(crate) fn all(
         &mut self,
@@ -73,7 +60,7 @@ where
         self.sorter.begin(common.executor(&interrupt));
         let keep = &|found: &[K::Hit]| self.sorter.push(found);
         let buffers = (&mut self.tasks, &mut self.scheduler);
-        Self::collect(buffers, kind, common, request, &interrupt, keep)?;
+        collect(buffers, kind, common, request, &interrupt, keep)?;
         let instructions = common.instructions;
         let executor = common.executor(&interrupt);
         self.sorter.sort(executor, instructions);
@@ -82,60 +69,7 @@ where
     }
 }
 
-impl<K: Kind> Asked<K>
-where
-    K::Scalar: Coordinate,
-{
-    /// Has every thread keep what it finds, some hits at a time. It is an error if there are more than the request allows.
-    fn collect(
-        (tasks, scheduler): (&mut TaskList<K>, &mut Scheduler<K>),
-        kind: &K,
-        common: &mut Common<K::Scalar>,
-        request: &Request,
-        interrupt: &Interrupt,
-        keep: &(dyn Fn(&[K::Hit]) + Sync),
-    ) -> Result<(), Error> {
-        common.begin(request)?;
-        let count = AtomicUsize::new(0);
-        let collector = &|found: &[K::Hit]| {
-            let before = count.fetch_add(found.len(), Ordering::Relaxed);
-            if before.saturating_add(found.len()) > request.most {
-                return ControlFlow::Break(());
-            }
-            keep(found);
-            ControlFlow::Continue(())
-        };
-        let mut answer = Answer::new(kind, tasks, Sink::Collector(collector));
-        common.scratch.begin(true);
-        let (mut step, bodies, body_pairs) =
-            common.step(kind.needs(), request, interrupt, false)?;
-        let instructions = step.refit.instructions;
-        // Bodies with themselves are a batch of their own, the first: what is refitted then does not depend on the order in which
-        // threads take the others.
-        'batches: while let Some(pairs) = body_pairs.next(bodies, instructions, interrupt) {
-            if is_worth_it(step.refit.executor, bodies, pairs) {
-                if scheduler
-                    .meet(&mut step, &mut answer, bodies, pairs, collector)
-                    .is_break()
-                {
-                    break;
-                }
-                continue;
-            }
-            for &pair in pairs {
-                if step.meet(bodies, pair, &mut answer).is_break() {
-                    break 'batches;
-                }
-            }
-        }
-        common.end(interrupt)?;
-        if count.into_inner() > request.most {
-            let limit = request.most;
-            return Err(ErrorKind::TooManyHits { limit }.of_query());
-        }
-        Ok(())
-    }
-
+impl<K: Kind> Asked<K> {
     /// All hits, sorted; for kinds whose hits are more than their numbers.
     pub(crate) fn all_listed(
         &mut self,
@@ -151,7 +85,7 @@ where
         self.lists.iter_mut().for_each(Vec::clear);
         let keep = &|found: &[K::Hit]| self.lists.own().extend_from_slice(found);
         let buffers = (&mut self.tasks, &mut self.scheduler);
-        Self::collect(buffers, kind, common, request, &interrupt, keep)?;
+        collect(buffers, kind, common, request, &interrupt, keep)?;
         let mut lists = self.lists.iter_mut();
         let Some(all) = lists.next() else {
             return Ok(&[]);
@@ -170,7 +104,7 @@ where
     ) -> Result<(), Error> {
         let interrupt = Interrupt::new(request.question);
         let buffers = (&mut self.tasks, &mut self.scheduler);
-        Self::collect(buffers, kind, common, request, &interrupt, &|_| {})
+        collect(buffers, kind, common, request, &interrupt, &|_| {})
     }
 
     /// Shows every hit once, until the visitor breaks.
@@ -179,25 +113,70 @@ where
         kind: &K,
         common: &mut Common<K::Scalar>,
         request: &Request,
-        visitor: Visitor<K::Hit>,
+        visitor: Visitor<K::Shown>,
     ) -> Result<(), Error> {
         let interrupt = Interrupt::new(request.question);
-        common.begin(request)?;
-        let mut answer = Answer::new(kind, &mut self.tasks, Sink::Visitor(visitor));
-        common.scratch.begin(false);
-        let (mut step, bodies, body_pairs) =
-            common.step(kind.needs(), request, &interrupt, false)?;
-        let instructions = step.refit.instructions;
-        'batches: while let Some(pairs) = body_pairs.next(bodies, instructions, &interrupt) {
-            for &pair in pairs {
-                if step.meet(bodies, pair, &mut answer).is_break() {
-                    break 'batches;
-                }
-            }
-        }
-        common.end(&interrupt)
+        let buffers = (&mut self.tasks, &mut self.scheduler);
+        let sink = Sink::Visitor(visitor);
+        ask(buffers, kind, common, request, &interrupt, sink)
     }
 }
+
+/// Has every thread keep what it finds, some hits at a time. It is an error if there are more than
+/// the request allows.
+fn collect<K: Kind>(
+    buffers: (&mut TaskList<K>, &mut Scheduler<K>),
+    kind: &K,
+    common: &mut Common<K::Scalar>,
+    request: &Request,
+    interrupt: &Interrupt,
+    keep: &(dyn Fn(&[K::Hit]) + Sync),
+) -> Result<(), Error> {
+    let count = AtomicUsize::new(0);
+    let collector = &|found: &[K::Hit]| {
+        let before = count.fetch_add(found.len(), Ordering::Relaxed);
+        if before.saturating_add(found.len()) > request.most {
+            return ControlFlow::Break(());
+        }
+        keep(found);
+        ControlFlow::Continue(())
+    };
+    let sink = Sink::Collector(collector);
+    ask(buffers, kind, common, request, interrupt, sink)?;
+    if count.into_inner() > request.most {
+        let limit = request.most;
+        return Err(ErrorKind::TooManyHits { limit }.of_query());
+    }
+    Ok(())
+}
+
+/// Answers a query: what it finds goes to a sink, until that breaks.
+fn ask<K: Kind>(
+    (tasks, scheduler): (&mut TaskList<K>, &mut Scheduler<K>),
+    kind: &K,
+    common: &mut Common<K::Scalar>,
+    request: &Request,
+    interrupt: &Interrupt,
+    sink: SinkOf<K>,
+) -> Result<(), Error> {
+    common.begin(request)?;
+    let collector = sink.collector();
+    let mut answer = Answer::new(kind, tasks, sink);
+    common.scratch.begin(collector.is_some());
+    let meet: Meet<K::Scalar> = &mut |step, bodies, pairs| match collector {
+        Some(collector) if is_worth_it(step.refit.executor, bodies, pairs) => {
+            scheduler.meet(step, &mut answer, bodies, pairs, collector)
+        }
+        _ => {
+            let mut pairs = pairs.iter();
+            pairs.try_for_each(|&pair| step.meet(bodies, pair, &mut answer))
+        }
+    };
+    common.for_each_batch(kind.needs(), request, interrupt, false, meet)
+}
+
+/// The work on a batch of pairs of bodies.
+type Meet<'m, S> = &'m mut dyn FnMut(&mut Step, &mut Bodies<S>, &[BodyPair]) -> ControlFlow<()>;
 
 impl<S: Coordinate> Common<S> {
     /// The threads that work on a query.
@@ -216,43 +195,57 @@ impl<S: Coordinate> Common<S> {
         Ok(())
     }
 
-    /// A query that begins, the bodies it works on, and which of them meet.
-    fn step<'q>(
+    /// A step of a query, perhaps one that is done early, the bodies it works on, and the finder of
+    /// pairs.
+    pub(super) fn step<'q>(
         &'q mut self,
         needs: Needs,
-        request: &Request,
         interrupt: &'q Interrupt<'q>,
         early: bool,
-    ) -> Result<(Step<'q>, &'q mut Bodies<S>, &'q mut BodyPairs), Error> {
-        let Self {
-            options,
-            instructions,
-            threads,
-            bodies,
-            body_pairs,
-            origin,
-            scratch,
-            statistics,
-            done_early,
-        } = self;
+    ) -> (Step<'q>, &'q mut Bodies<S>, &'q mut BodyPairs) {
         let refit = Refit {
             executor: Executor {
-                threads: threads.here(),
+                threads: self.threads.here(),
                 interrupt,
             },
-            instructions: *instructions,
-            update: options.update,
+            instructions: self.instructions,
+            update: self.options.update,
         };
-        let boxes = needs.body_boxes();
-        body_pairs.begin(request.of, bodies, boxes, origin.point, interrupt)?;
         let step = Step {
             needs,
             refit,
-            origin: origin.point,
-            scratch,
-            statistics: if early { done_early } else { statistics },
+            origin: self.origin.point,
+            scratch: &mut self.scratch,
+            statistics: if early {
+                &mut self.done_early
+            } else {
+                &mut self.statistics
+            },
         };
-        Ok((step, bodies, body_pairs))
+        (step, &mut self.bodies, &mut self.body_pairs)
+    }
+
+    /// Goes through the pairs of bodies that a query is about, batch by batch, until one breaks.
+    fn for_each_batch(
+        &mut self,
+        needs: Needs,
+        request: &Request,
+        interrupt: &Interrupt,
+        early: bool,
+        meet: Meet<S>,
+    ) -> Result<(), Error> {
+        let (mut step, bodies, body_pairs) = self.step(needs, interrupt, early);
+        let (boxes, origin) = (needs.body_boxes(), step.origin);
+        body_pairs.begin(request.of, bodies, boxes, origin, interrupt)?;
+        let instructions = step.refit.instructions;
+        // Bodies with themselves are a batch of their own, the first: what is refitted then does
+        // not depend on the order in which threads take the others.
+        while let Some(pairs) = body_pairs.next(bodies, instructions, interrupt) {
+            if meet(&mut step, bodies, pairs).is_break() {
+                break;
+            }
+        }
+        self.end(interrupt)
     }
 
     /// Does early what a query would do first: finds the bodies that may meet and refits the upper levels of their trees.
@@ -260,9 +253,7 @@ impl<S: Coordinate> Common<S> {
         let interrupt = Interrupt::new(request.question);
         self.bodies.validate(request.of)?;
         self.settle_origin();
-        let (mut step, bodies, body_pairs) = self.step(needs, request, &interrupt, true)?;
-        let instructions = step.refit.instructions;
-        'batches: while let Some(pairs) = body_pairs.next(bodies, instructions, &interrupt) {
+        let meet: Meet<S> = &mut |step, bodies, pairs| {
             for &[a, b] in pairs {
                 let partner = if a == b {
                     Partner::Itself
@@ -270,14 +261,12 @@ impl<S: Coordinate> Common<S> {
                     Partner::Another
                 };
                 for place in [a, b] {
-                    let body = &mut bodies.list[place.index()];
-                    if step.prepare(body, partner).is_break() {
-                        break 'batches;
-                    }
+                    step.prepare(bodies.at_mut(place), partner)?;
                 }
             }
-        }
-        self.end(&interrupt)
+            ControlFlow::Continue(())
+        };
+        self.for_each_batch(needs, request, &interrupt, true, meet)
     }
 
     /// At the end of every query: if it was interrupted, nothing that it left half done is believed.
@@ -285,15 +274,13 @@ impl<S: Coordinate> Common<S> {
         if !interrupt.is_set() {
             return Ok(());
         }
-        for body in &mut self.bodies.list {
-            body.forget_boxes();
-        }
+        self.bodies.all_mut().for_each(Body::forget_boxes);
         self.body_pairs.forget();
         Err(ErrorKind::Interrupted.of_query())
     }
 
     pub(crate) fn settle_origin(&mut self) {
-        if self.origin.settle(&mut self.bodies.list) {
+        if self.origin.settle(&mut self.bodies) {
             self.body_pairs.forget();
         }
     }
@@ -305,11 +292,7 @@ impl<S: Coordinate> Common<S> {
     }
 }
 
-impl<K: Kind> Held for Asked<K> {
-    fn held(&self) -> usize {
-        self.tasks.held()
-            + self.scheduler.held()
-            + self.sorter.held()
-            + self.lists.held_by(held::list)
-    }
-}
+empty!(Asked<K: Kind>: tasks, scheduler, sorter, lists, measured);
+
+held!(Asked<K: Kind>: tasks, scheduler, sorter, measured[];
+    |asked| asked.lists.held_by(held::list));

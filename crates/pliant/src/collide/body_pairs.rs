@@ -99,8 +99,7 @@ impl BodyPairs {
             Selection::Within(a) => self.named.push([bodies.place(a)?; 2]),
             Selection::Between(a, b) => {
                 let places = [bodies.place(a)?, bodies.place(b)?];
-                let [box_a, box_b] =
-                    places.map(|place| bodies.list[place.index()].box_for(boxes, origin));
+                let [box_a, box_b] = places.map(|place| bodies.at(place).box_for(boxes, origin));
                 if box_a.overlaps(&box_b) {
                     self.named.push(places);
                 }
@@ -108,10 +107,10 @@ impl BodyPairs {
             Selection::World => {}
             Selection::Everything => {
                 let meet = |place: &Place| {
-                    let body = &bodies.list[place.index()];
+                    let body = bodies.at(*place);
                     bodies.do_meet(body, body)
                 };
-                let places = bodies.places.iter().copied();
+                let places = bodies.places().iter().copied();
                 self.named
                     .extend(places.filter(meet).map(|place| [place; 2]));
             }
@@ -170,25 +169,18 @@ impl BodyPairs {
         instructions: Instructions,
         interrupt: &Interrupt,
     ) -> bool {
-        let Self {
-            broad_phase,
-            exact,
-            broad,
-            row,
-            of_world,
-            ..
-        } = self;
+        let (exact, row, of_world) = (&self.exact, &mut self.row, &mut self.of_world);
         let that_meet = |&pair: &Overlap| {
             let [exact_a, exact_b] = pair.map(|rank| &exact[rank.index()]);
-            let places = pair.map(|rank| bodies.places[rank.index()]);
-            let [a, b] = places.map(|place| &bodies.list[place.index()]);
+            let places = pair.map(|rank| bodies.places()[rank.index()]);
+            let [a, b] = places.map(|place| bodies.at(place));
             (exact_a.overlaps(exact_b) && bodies.do_meet(a, b)).then_some(places)
         };
-        let most = BATCH.max(PAIRS_A_BODY * bodies.list.len());
+        let most = BATCH.max(PAIRS_A_BODY * bodies.len());
         of_world.clear();
         while of_world.len() < most && !interrupt.is_set() {
             row.clear();
-            let are_more = broad_phase.next(instructions, broad, row);
+            let are_more = self.broad_phase.next(instructions, &self.broad, row);
             of_world.extend(row.iter().filter_map(that_meet));
             if !are_more {
                 return false;

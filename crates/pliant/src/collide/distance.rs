@@ -5,21 +5,20 @@
 //! nearly is, and then hardly a box is opened that does not have to be.
 
 use super::asked::Common;
-use super::step::Step;
 use super::witness::{Witnesses, pair_of};
 use crate::bodies::Body;
-use crate::close_pairs::CloseTriangles;
 use crate::error::{Error, ErrorKind};
 use crate::geometry::Shape;
 use crate::held::held;
 use crate::ids::BodyId;
 use crate::kernels::{Coordinate, dispatch};
 use crate::queries::{
-    BodyBoxes, Candidate, NearestPair, Needs, close, closest_of_triangles, corners_of,
+    BodyBoxes, Candidate, CloseTriangles, NearestPair, Needs, close, closest_of_triangles,
+    corners_of,
 };
-use crate::threads::{Executor, Interrupt};
+use crate::threads::Interrupt;
 use crate::traversal::{NearestScratch, TreePair, gap_square, nearest};
-use crate::update::{Partner, Refit};
+use crate::update::Partner;
 use std::ops::ControlFlow;
 
 /// What a world keeps for distances.
@@ -43,9 +42,9 @@ pub(crate) fn others_by_gap<S: Coordinate>(
     let body = common.bodies.get(id)?;
     let (origin, boxes) = (common.origin.point, BodyBoxes::default());
     let own = body.box_for(boxes, origin);
-    let others = common.bodies.list.iter();
-    let others = others.filter(|other| other.id != id && common.bodies.do_meet(body, other));
-    let gaps = others.map(|other| (gap_square(&own, &other.box_for(boxes, origin)), other.id));
+    let others = common.bodies.all();
+    let others = others.filter(|other| other.id() != id && common.bodies.do_meet(body, other));
+    let gaps = others.map(|other| (gap_square(&own, &other.box_for(boxes, origin)), other.id()));
     listed.extend(gaps);
     listed.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     Ok(())
@@ -77,33 +76,19 @@ impl Distances {
         cut_off: f64,
         interrupt: &Interrupt,
     ) -> Result<Option<CloseTriangles>, Error> {
-        let origin = common.origin.point;
         let places = [common.bodies.place(of[0])?, common.bodies.place(of[1])?];
-        let instructions = common.instructions;
         let mut found = NearestPair::within(cut_off);
         let mut limit = found.limit();
-        let both = common.bodies.two(places);
+        let (mut step, bodies, _) = common.step(Needs::TRIANGLES, interrupt, false);
+        let (refit, origin) = (step.refit, step.origin);
+        let instructions = refit.instructions;
+        let both = bodies.two(places);
         let [box_a, box_b] = both
             .each_ref()
             .map(|body| body.box_for(BodyBoxes::default(), origin));
         if gap_square(&box_a, &box_b) > limit {
             return Ok(None);
         }
-        let refit = Refit {
-            executor: Executor {
-                threads: common.threads.here(),
-                interrupt,
-            },
-            instructions,
-            update: common.options.update,
-        };
-        let mut step = Step {
-            needs: Needs::TRIANGLES,
-            refit,
-            origin,
-            scratch: &mut common.scratch,
-            statistics: &mut common.statistics,
-        };
         let [body_a, body_b] = both;
         let ready = (
             step.bring_body_into_tree_order(body_a),
@@ -159,7 +144,7 @@ fn parts_of<S: Coordinate>(
     a: &Body<S>,
     b: &Body<S>,
 ) -> impl Iterator<Item = (usize, usize)> + use<S> {
-    let [of_a, of_b] = [a.parts.len(), b.parts.len()];
+    let [of_a, of_b] = [a.part_count(), b.part_count()];
     (0..of_a).flat_map(move |a| (0..of_b).map(move |b| (a, b)))
 }
 

@@ -11,11 +11,10 @@ use super::asked::{Asked, Common};
 use super::request::Request;
 use crate::bodies::Body;
 use crate::error::Error;
-use crate::held::Held;
-use crate::impacts::Impact;
+use crate::held::{empty, held};
 use crate::kernels::Coordinate;
 use crate::queries::{
-    Earliest, EdgeEdgeCandidates, First, Impacts, Kind, LIMIT, Margin, Reach,
+    Candidates, Earliest, EdgeEdgeCandidates, First, Impact, Impacts, Kind, LIMIT, Margin, Reach,
     VertexTriangleCandidates,
 };
 use crate::selection::Selection;
@@ -60,15 +59,6 @@ pub(crate) struct AskedImpacts<S: Coordinate> {
     pub(crate) edge_edge: Asked<Impacts<EdgeEdgeCandidates<S>>>,
 }
 
-impl<S: Coordinate> Default for AskedImpacts<S> {
-    fn default() -> Self {
-        Self {
-            vertex_triangle: Asked::default(),
-            edge_edge: Asked::default(),
-        }
-    }
-}
-
 impl<S: Coordinate> AskedImpacts<S> {
     /// The first contact of a motion: which elements it is of, and when. Of several at one time that of a vertex and a triangle; the first
     /// in order.
@@ -102,15 +92,13 @@ impl<S: Coordinate> AskedImpacts<S> {
             };
             let mut earliest = Earliest::new(after_start, until);
             if of != OfKind::Edges {
-                let kind = impacts_until(VertexTriangleCandidates::within, reach, distance);
                 let asked = &mut self.vertex_triangle;
-                earliest = asked.earliest(kind, common, request, earliest)?;
+                earliest = asked.earliest(common, request, reach, distance, earliest)?;
                 statistics += common.statistics;
             }
             if of != OfKind::VerticesAndTriangles {
-                let kind = impacts_until(EdgeEdgeCandidates::within, reach, distance);
                 let asked = &mut self.edge_edge;
-                earliest = asked.earliest(kind, common, request, earliest)?;
+                earliest = asked.earliest(common, request, reach, distance, earliest)?;
                 statistics += common.statistics;
             }
             if earliest.known() <= 1.0 || until >= 1.0 {
@@ -164,16 +152,13 @@ impl<S: Coordinate> AskedImpacts<S> {
         if time == 0.0 {
             return Ok(true);
         }
-        let reach = Reach::To(time);
-        let kind = impacts_until(VertexTriangleCandidates::within, reach, distance);
         let asked = &mut self.vertex_triangle;
-        if !is_free(asked, &kind, common, request, distance > 0.0)? {
+        if !asked.is_free_to(common, request, time, distance)? {
             return Ok(false);
         }
         let statistics = common.statistics;
-        let kind = impacts_until(EdgeEdgeCandidates::within, reach, distance);
         let asked = &mut self.edge_edge;
-        let is_free = is_free(asked, &kind, common, request, distance > 0.0)?;
+        let is_free = asked.is_free_to(common, request, time, distance)?;
         common.statistics += statistics;
         Ok(is_free)
     }
@@ -183,10 +168,10 @@ impl<S: Coordinate> AskedImpacts<S> {
 fn first_part<S: Coordinate>(common: &Common<S>, of: Selection) -> f64 {
     let is_of_it = |body: &Body<S>| match of {
         Selection::World | Selection::Everything => true,
-        Selection::Between(a, b) => body.id == a || body.id == b,
-        Selection::Within(a) => body.id == a,
+        Selection::Between(a, b) => body.id() == a || body.id() == b,
+        Selection::Within(a) => body.id() == a,
     };
-    let all = common.bodies.list.iter();
+    let all = common.bodies.all();
     let bodies = all.filter(|body| is_of_it(body));
     let edges = bodies.fold(0.0, |most: f64, body| most.max(body.motion_in_edges()));
     let mut part: f64 = 1.0;
@@ -197,59 +182,56 @@ fn first_part<S: Coordinate>(common: &Common<S>, of: Selection) -> f64 {
 }
 
 /// Contacts up to a time, or what comes as near as a distance.
-fn impacts_until<K>(within: impl Fn(Margin) -> K, reach: Reach, distance: f64) -> Impacts<K> {
+fn impacts<E, S>(reach: Reach, distance: f64) -> Impacts<Candidates<E, S>> {
     // Half the distance for each of two, and a little more than the lanes look for.
     let margin = Margin::new((distance * (LIMIT / 2.0 + 0.001)).min(f64::MAX));
-    Impacts::of(within(margin), Grid::new(1.0), reach).or_near(distance)
+    Impacts::of(Candidates::within(margin), Grid::new(1.0), reach).or_near(distance)
 }
 
-impl<K> Asked<Impacts<K>>
+impl<E, S: Coordinate> Asked<Impacts<Candidates<E, S>>>
 where
-    K: Kind<Scalar: Coordinate>,
-    Impacts<K>: Kind<Scalar = K::Scalar>,
+    Candidates<E, S>: Kind,
+    Impacts<Candidates<E, S>>: Kind<Scalar = S, Shown: Into<Impact>>,
 {
     /// The earliest of one kind, if it is earlier than what is known.
     fn earliest(
         &mut self,
-        kind: Impacts<K>,
-        common: &mut Common<K::Scalar>,
+        common: &mut Common<S>,
         request: &Request,
+        reach: Reach,
+        distance: f64,
         known: Earliest,
     ) -> Result<Earliest, Error> {
-        let kind = kind.earlier_than(known);
+        let kind = impacts(reach, distance).earlier_than(known);
         self.search(&kind, common, request)?;
         Ok(kind.into_earliest())
     }
-}
 
-/// Whether none of one kind meets after the start, or at it if that counts.
-fn is_free<K>(
-    asked: &mut Asked<Impacts<K>>,
-    kind: &Impacts<K>,
-    common: &mut Common<K::Scalar>,
-    request: &Request,
-    at_start_too: bool,
-) -> Result<bool, Error>
-where
-    K: Kind<Scalar: Coordinate>,
-    Impacts<K>: Kind<Scalar = K::Scalar, Hit: Into<Impact>>,
-{
-    let mut is_free = true;
-    asked.visit(kind, common, request, &mut |found| {
-        let counts = |&impact: &_| at_start_too || Into::<Impact>::into(impact).high() > 0.0;
-        match found.iter().position(counts) {
-            Some(place) => {
-                is_free = false;
-                ControlFlow::Break(place)
+    /// Whether none of one kind meets after the start on the way to a time, or comes as near as a
+    /// distance at any.
+    fn is_free_to(
+        &mut self,
+        common: &mut Common<S>,
+        request: &Request,
+        time: f64,
+        distance: f64,
+    ) -> Result<bool, Error> {
+        let mut is_free = true;
+        let kind = impacts(Reach::To(time), distance);
+        self.visit(&kind, common, request, &mut |found| {
+            let counts = |&impact: &_| distance > 0.0 || Into::<Impact>::into(impact).high() > 0.0;
+            match found.iter().position(counts) {
+                Some(place) => {
+                    is_free = false;
+                    ControlFlow::Break(place)
+                }
+                None => ControlFlow::Continue(()),
             }
-            None => ControlFlow::Continue(()),
-        }
-    })?;
-    Ok(is_free)
-}
-
-impl<S: Coordinate> Held for AskedImpacts<S> {
-    fn held(&self) -> usize {
-        self.vertex_triangle.held() + self.edge_edge.held()
+        })?;
+        Ok(is_free)
     }
 }
+
+empty!(AskedImpacts<S: Coordinate>: vertex_triangle, edge_edge);
+
+held!(AskedImpacts<S: Coordinate>: vertex_triangle, edge_edge);

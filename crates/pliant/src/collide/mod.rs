@@ -19,7 +19,7 @@ mod witness;
 
 pub(crate) use asked::{Asked, Common};
 pub(crate) use body_pairs::BodyPairs;
-pub(crate) use close::AskedClose;
+pub(crate) use close::InBodies;
 pub(crate) use distance::{Distances, check, in_common, others_by_gap};
 pub(crate) use impacts::{AskedImpacts, OfKind};
 pub(crate) use origin::FloatingOrigin;

@@ -1,7 +1,7 @@
 //! The point that the boxes of an `f64` world are relative to. It follows the bodies, because the digits of an `f32` are best spent on
 //! their shapes.
 
-use crate::bodies::Body;
+use crate::bodies::{Bodies, Body};
 use crate::geometry::{Bounds, Origin};
 use crate::kernels::Coordinate;
 
@@ -22,13 +22,13 @@ impl FloatingOrigin {
     /// Moves to the bodies if they have moved away; all boxes are then stale. Returns whether it moved.
     ///
     /// Looking at all bodies costs O(n), so it is done only when as many shapes were taken over as there are bodies.
-    pub(crate) fn settle<S: Coordinate>(&mut self, bodies: &mut [Box<Body<S>>]) -> bool {
+    pub(crate) fn settle<S: Coordinate>(&mut self, bodies: &mut Bodies<S>) -> bool {
         if S::BOXES_ARE_EXACT || self.moves < bodies.len() {
             return false;
         }
         self.moves = 0;
         let mut extent = Bounds::EMPTY;
-        for bounds in bodies.iter().map(|body| body.bounds()) {
+        for bounds in bodies.all().map(Body::bounds) {
             extent.include(bounds.lo);
             extent.include(bounds.hi);
         }
@@ -44,7 +44,7 @@ impl FloatingOrigin {
         if moves {
             let [x, y, z] = centre;
             self.point = [x, y, z, 0.0];
-            bodies.iter_mut().for_each(|body| body.origin_moved());
+            bodies.all_mut().for_each(Body::origin_moved);
         }
         moves
     }

@@ -1,8 +1,7 @@
 //! What a query is asked with, and who answers it.
 
-use crate::contacts::ContactKind;
 use crate::error::{Error, ErrorKind};
-use crate::queries::Margin;
+use crate::queries::{ContactKind, Margin};
 use crate::selection::Selection;
 use crate::threads::Question;
 use crate::traversal::Visitor;
@@ -42,29 +41,28 @@ impl Request<'_> {
     /// The margin that is asked for.
     pub(crate) fn margin(&self) -> Result<Margin, Error> {
         let radius = self.within;
-        if radius.is_finite() && radius >= 0.0 {
-            return Ok(Margin::new(radius));
-        }
-        Err(ErrorKind::BadMargin { radius }.of_query())
+        checked(radius, ErrorKind::BadMargin { radius }).map(Margin::new)
     }
 
     /// The grid of times that is asked for.
     pub(crate) fn grid(&self) -> Result<Grid, Error> {
         let width = self.width;
-        if width.is_finite() && width >= 0.0 {
-            return Ok(Grid::new(width));
-        }
-        Err(ErrorKind::BadWidth { width }.of_query())
+        checked(width, ErrorKind::BadWidth { width }).map(Grid::new)
     }
 
     /// The distance that is asked for.
     pub(crate) fn distance(&self) -> Result<f64, Error> {
         let distance = self.within;
-        if distance.is_finite() && distance >= 0.0 {
-            return Ok(distance);
-        }
-        Err(ErrorKind::BadDistance { distance }.of_query())
+        checked(distance, ErrorKind::BadDistance { distance })
     }
+}
+
+/// A number that is finite and at least 0; else what is wrong.
+fn checked(number: f64, wrong: ErrorKind) -> Result<f64, Error> {
+    if number.is_finite() && number >= 0.0 {
+        return Ok(number);
+    }
+    Err(wrong.of_query())
 }
 
 /// Answers queries of one kind.

@@ -9,7 +9,7 @@ use super::body_pairs::BodyPair;
 use super::step::Step;
 use crate::bodies::Bodies;
 use crate::bodies::Body;
-use crate::held::{self, Held};
+use crate::held::{empty, held};
 use crate::ids::Place;
 use crate::kernels::Coordinate;
 use crate::queries::Kind;
@@ -48,27 +48,6 @@ struct Worker<K: Kind> {
     statistics: Statistics,
 }
 
-impl<K: Kind> Default for Scheduler<K> {
-    fn default() -> Self {
-        Self {
-            workers: Vec::new(),
-            large: Vec::new(),
-            small: Vec::new(),
-            jobs: Vec::new(),
-        }
-    }
-}
-
-impl<K: Kind> Default for Worker<K> {
-    fn default() -> Self {
-        Self {
-            scratch: Scratch::default(),
-            tasks: TaskList::default(),
-            statistics: Statistics::default(),
-        }
-    }
-}
-
 /// Whether pairs of bodies are worth it.
 pub(crate) fn is_worth_it<S: Coordinate>(
     executor: Executor,
@@ -81,9 +60,7 @@ pub(crate) fn is_worth_it<S: Coordinate>(
 /// The triangles of both bodies of all pairs.
 fn triangles_of<S: Coordinate>(bodies: &Bodies<S>, pairs: &[BodyPair]) -> usize {
     let places = pairs.as_flattened().iter();
-    places
-        .map(|place| bodies.list[place.index()].triangle_count())
-        .sum()
+    places.map(|&place| bodies.at(place).triangle_count()).sum()
 }
 
 impl<K: Kind> Scheduler<K> {
@@ -95,10 +72,7 @@ impl<K: Kind> Scheduler<K> {
         bodies: &mut Bodies<K::Scalar>,
         pairs: &[BodyPair],
         collector: Collector<K::Hit>,
-    ) -> ControlFlow<()>
-    where
-        K::Scalar: Coordinate,
-    {
+    ) -> ControlFlow<()> {
         let executor = step.refit.executor;
         self.workers.resize_with(executor.count(), Worker::default);
         self.cut(bodies, pairs);
@@ -110,7 +84,7 @@ impl<K: Kind> Scheduler<K> {
             worker.statistics = Statistics::default();
         }
         let (small, jobs) = (&self.small, &self.jobs);
-        let all: Vec<_> = bodies.list.iter_mut().map(Mutex::new).collect();
+        let all: Vec<_> = bodies.all_mut().map(Mutex::new).collect();
         let threads = &Threads::one();
         let kind = answer.kind();
         let (needs, refit, origin) = (step.needs, step.refit, step.origin);
@@ -177,17 +151,10 @@ impl<K: Kind> Scheduler<K> {
     }
 }
 
-impl<K: Kind> Held for Scheduler<K> {
-    fn held(&self) -> usize {
-        held::lists(&self.workers)
-            + held::list(&self.large)
-            + held::list(&self.small)
-            + held::list(&self.jobs)
-    }
-}
+empty!(Scheduler<K: Kind>: workers, large, small, jobs);
 
-impl<K: Kind> Held for Worker<K> {
-    fn held(&self) -> usize {
-        self.scratch.held() + self.tasks.held()
-    }
-}
+held!(Scheduler<K: Kind>: workers, large[], small[], jobs[]);
+
+empty!(Worker<K: Kind>: scratch, tasks, statistics);
+
+held!(Worker<K: Kind>: scratch, tasks);

@@ -34,7 +34,7 @@ impl Step<'_> {
         tasks: &mut dyn Tasks<S>,
     ) -> ControlFlow<()> {
         if a == b {
-            self.meet_itself(&mut bodies.list[a.index()], tasks)
+            self.meet_itself(bodies.at_mut(a), tasks)
         } else {
             self.meet_another(bodies.two([a, b]), tasks)
         }
@@ -51,7 +51,7 @@ impl Step<'_> {
         let [body_a, body_b] = both;
         self.bring_body_into_tree_order(body_a)?;
         self.bring_body_into_tree_order(body_b)?;
-        let (parts_a, parts_b) = (body_a.parts.len(), body_b.parts.len());
+        let (parts_a, parts_b) = (body_a.part_count(), body_b.part_count());
         for a in 0..parts_a {
             for b in 0..parts_b {
                 let a = self.ahead(body_a, a, Partner::Another)?;
@@ -62,7 +62,7 @@ impl Step<'_> {
         if let Some([node_pairs, candidates]) = self.much_since(before) {
             let work = Work::of_two(node_pairs, candidates);
             for body in [body_a, body_b] {
-                body.decay.note(work, body.epoch, body.is_hardly_edited());
+                body.note_work(work);
             }
         }
         ControlFlow::Continue(())
@@ -77,7 +77,7 @@ impl Step<'_> {
         self.statistics.body_pairs += 1;
         let before = self.looked_at();
         self.bring_body_into_tree_order(body)?;
-        let parts = body.parts.len();
+        let parts = body.part_count();
         for part in 0..parts {
             if self.needs.triangles() {
                 body.know_neighbours(part, self.refit.executor);
@@ -94,9 +94,8 @@ impl Step<'_> {
             }
         }
         if let Some([node_pairs, candidates]) = self.much_since(before) {
-            let triangles = body.topology.live_count();
-            let work = Work::of_one(node_pairs, candidates, triangles);
-            body.decay.note(work, body.epoch, body.is_hardly_edited());
+            let triangles = body.mesh().topology().live_count();
+            body.note_work(Work::of_one(node_pairs, candidates, triangles));
         }
         ControlFlow::Continue(())
     }
@@ -143,7 +142,7 @@ impl Step<'_> {
         partner: Partner,
     ) -> ControlFlow<()> {
         self.bring_body_into_tree_order(body)?;
-        for part in 0..body.parts.len() {
+        for part in 0..body.part_count() {
             if partner == Partner::Itself && self.needs.triangles() {
                 body.know_neighbours(part, self.refit.executor);
             }

@@ -8,11 +8,10 @@
 use crate::bodies::Body;
 use crate::geometry::Bounds;
 use crate::held::{self, Held};
-use crate::hits::Pair;
 use crate::ids::BodyId;
 use crate::ids::TreeTriangle;
 use crate::kernels::Coordinate;
-use crate::queries::{CallerIds, Candidate, Intersections, Kind};
+use crate::queries::{CallerIds, Candidate, Intersections, Kind, Pair};
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
 use pliant_exact::{Triangle, intersect};
@@ -61,8 +60,8 @@ pub(crate) fn near<S: Coordinate>(
 pub(crate) fn pair_of<S: Coordinate>(both: [&Body<S>; 2], found: Candidate) -> Pair {
     let ids = CallerIds {
         edges: [&[]; 2],
-        bodies: both.map(|body| body.id),
-        orders: both.map(|body| &body.order),
+        bodies: both.map(Body::id),
+        orders: both.map(|body| body.mesh().order()),
     };
     Intersections::<S>::default().to_caller(&ids, found)
 }
@@ -76,7 +75,7 @@ fn among<const R: usize, S: Coordinate>(
 ) -> Option<Candidate> {
     let of_a = Run::<R, S>::around(a, near_a);
     let of_b = Run::<R, S>::around(b, near_b);
-    of_a.meet(&of_b, a.id == b.id, interrupt, statistics)
+    of_a.meet(&of_b, a.id() == b.id(), interrupt, statistics)
 }
 
 /// Up to R triangles in a row.
@@ -97,7 +96,7 @@ impl<'b, const R: usize, S: Coordinate> Run<'b, R, S> {
         let mut boxes = [Bounds::EMPTY; R];
         let mut all = Bounds::EMPTY;
         for place in 0..count {
-            if body.is_gone(TreeTriangle((first + place) as u32)) {
+            if body.mesh().is_gone(TreeTriangle((first + place) as u32)) {
                 // Its box is empty, and overlaps none.
                 continue;
             }
@@ -135,7 +134,7 @@ impl<'b, const R: usize, S: Coordinate> Run<'b, R, S> {
             }
             for b in other.overlapping(self.boxes[a]) {
                 let pair = [self.first.plus(a as u32), other.first.plus(b as u32)];
-                if itself && self.body.order.share_a_vertex(pair[0], pair[1]) {
+                if itself && self.body.mesh().order().share_a_vertex(pair[0], pair[1]) {
                     continue;
                 }
                 statistics.candidate_pairs += 1;

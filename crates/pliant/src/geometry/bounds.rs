@@ -1,7 +1,9 @@
-//! The exact extent of points, and the box that holds it.
+//! The exact extent of points, and the box that holds it. Many boxes side by side are
+//! `kernels::BoxLanes`.
 
-use super::real::{larger, smaller};
-use super::{Aabb, Real};
+use super::Real;
+use super::real::{OUTWARD, larger, smaller};
+use std::array::from_fn;
 
 /// The point that the boxes of a world are relative to, and padding.
 pub(crate) type Origin = [f64; 4];
@@ -29,30 +31,52 @@ impl<S: Real> Bounds<S> {
     }
 
     /// The bounds of both.
-    pub(crate) fn union(mut self, other: &Self) -> Self {
-        for axis in 0..3 {
-            self.lo[axis] = smaller(self.lo[axis], other.lo[axis]);
-            self.hi[axis] = larger(self.hi[axis], other.hi[axis]);
+    pub(crate) fn union(&self, other: &Self) -> Self {
+        Self {
+            lo: from_fn(|axis| smaller(self.lo[axis], other.lo[axis])),
+            hi: from_fn(|axis| larger(self.hi[axis], other.hi[axis])),
         }
-        self
     }
 
     /// The box that holds these bounds: exact for `f32`, rounded outward for `f64`.
     #[inline]
     pub(crate) fn to_box(self, origin: Origin) -> Aabb {
         Aabb {
-            lo: std::array::from_fn(|axis| self.lo[axis].round_down(origin[axis])),
-            hi: std::array::from_fn(|axis| self.hi[axis].round_up(origin[axis])),
+            lo: from_fn(|axis| self.lo[axis].round_down(origin[axis])),
+            hi: from_fn(|axis| self.hi[axis].round_up(origin[axis])),
         }
     }
 
     /// Touching counts; nothing overlaps the bounds of nothing.
+    #[inline]
     pub(crate) fn overlaps(&self, other: &Self) -> bool {
         (0..3).all(|axis| self.lo[axis] <= other.hi[axis] && other.lo[axis] <= self.hi[axis])
     }
 
     pub(crate) fn holds(&self, point: [S; 3]) -> bool {
         (0..3).all(|axis| self.lo[axis] <= point[axis] && point[axis] <= self.hi[axis])
+    }
+}
+
+/// A closed box `lo <= x <= hi` in `f32`.
+pub(crate) type Aabb = Bounds<f32>;
+
+impl Aabb {
+    /// Whether `other` lies in this box.
+    #[cfg(test)]
+    pub(crate) fn holds_box(&self, other: &Self) -> bool {
+        self.holds(other.lo) && self.holds(other.hi)
+    }
+
+    /// This box grown by a distance on every side, rounded outward.
+    pub(crate) fn grown(&self, distance: f32) -> Self {
+        // A difference is off by at most a quarter of what is taken away here, as in
+        // `Real::round_down` of f64.
+        let outward = |x: f32| x.abs() * OUTWARD + f32::MIN_POSITIVE;
+        Self {
+            lo: self.lo.map(|x| (x - distance) - outward(x - distance)),
+            hi: self.hi.map(|x| (x + distance) + outward(x + distance)),
+        }
     }
 }
 

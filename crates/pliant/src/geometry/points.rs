@@ -36,7 +36,6 @@ impl<S: Real> Points<S> {
 
     /// As many points as come, in memory that is there.
     pub(crate) fn refill(&mut self, points: impl Iterator<Item = [S; 3]>) {
-        let padded = |[x, y, z]: [S; 3]| [x, y, z, z];
         self.points.clear();
         self.points.extend(points.map(padded));
         self.bounds.clear();
@@ -45,27 +44,30 @@ impl<S: Real> Points<S> {
     }
 
     /// One more point, behind all others.
-    pub(crate) fn push(&mut self, [x, y, z]: [S; 3]) {
-        self.points.push([x, y, z, z]);
-        let rows = self.points.len().div_ceil(IN_A_ROW);
-        self.bounds.resize(rows, [[S::default(); 4]; 2]);
-        self.bound_row(rows - 1);
+    pub(crate) fn push(&mut self, point: [S; 3]) {
+        self.points.push(padded(point));
+        self.bound_last_row();
     }
 
     /// The last point goes.
     pub(crate) fn pop(&mut self) {
         self.points.pop();
-        let rows = self.points.len().div_ceil(IN_A_ROW);
-        self.bounds.truncate(rows);
-        if rows > 0 {
-            self.bound_row(rows - 1);
-        }
+        self.bound_last_row();
     }
 
     /// A point is somewhere else.
-    pub(crate) fn set(&mut self, vertex: TreeVertex, [x, y, z]: [S; 3]) {
-        self.points[vertex.index()] = [x, y, z, z];
+    pub(crate) fn set(&mut self, vertex: TreeVertex, point: [S; 3]) {
+        self.points[vertex.index()] = padded(point);
         self.bound_row(vertex.index() / IN_A_ROW);
+    }
+
+    /// As many rows as the points fill, and the bounds of the last one made anew.
+    fn bound_last_row(&mut self) {
+        let rows = self.points.len().div_ceil(IN_A_ROW);
+        self.bounds.resize(rows, [[S::default(); 4]; 2]);
+        if let Some(last) = rows.checked_sub(1) {
+            self.bound_row(last);
+        }
     }
 
     fn bound_row(&mut self, row: usize) {
@@ -85,7 +87,11 @@ fn bounds_of_row<S: Real>(row: &[[S; 4]]) -> RowBounds<S> {
     let mut bounds = Bounds::EMPTY;
     row.iter()
         .for_each(|&[x, y, z, _]| bounds.include([x, y, z]));
-    [bounds.lo, bounds.hi].map(|[x, y, z]| [x, y, z, z])
+    [bounds.lo, bounds.hi].map(padded)
+}
+
+fn padded<S: Copy>([x, y, z]: [S; 3]) -> [S; 4] {
+    [x, y, z, z]
 }
 
 impl<S> Points<S> {

@@ -32,57 +32,83 @@ pub(crate) trait Real:
     /// How much further [`past`](Self::past) goes: this part of the larger end, and [`LEAST`](Self::LEAST).
     const FURTHER: f64;
     const LEAST: f64;
+    /// The smallest positive coordinate for which subnormal numbers are not needed.
+    const NEEDS_NONE: Self;
 
     /// The same value; exact.
     fn to_f64(self) -> f64;
+    /// The nearest value of this type.
+    fn from_f64(x: f64) -> Self;
     /// Finite and at most `f32::MAX` in magnitude.
     fn is_in_range(self) -> bool;
     /// Whether a thread that flushes subnormal numbers loses this coordinate, or may lose a difference of it and another.
     fn needs_subnormals(self) -> bool;
     /// What is the part `t`, from 0 to 1, of the way from here to another: `self + t (to - self)` in `f64`, each operation rounded, and the
     /// result rounded to this type; never beyond either end.
-    fn toward(self, to: Self, t: f64) -> Self;
+    #[inline]
+    fn toward(self, to: Self, t: f64) -> Self {
+        Self::from_f64(part_of_way(self.to_f64(), to.to_f64(), t))
+    }
     /// A place that is at least the part `t`, from 0 to 1, of the way from here to another in exact arithmetic, and at most all of it; if
     /// subnormal numbers are flushed too, and read as zero.
-    fn past(self, to: Self, t: f64) -> Self;
+    #[inline]
+    fn past(self, to: Self, t: f64) -> Self {
+        let [from, to] = [self, to].map(Self::to_f64);
+        let there = part_of_way(from, to, t);
+        let further = larger(from.abs(), to.abs()) * Self::FURTHER + Self::LEAST;
+        // Roundings are monotone, so this is not beyond the other end.
+        Self::from_f64(if from < to {
+            smaller(there + further, to)
+        } else if from > to {
+            larger(there - further, to)
+        } else {
+            from
+        })
+    }
     /// An `f32` that is not above `self - origin`; for `f32` itself, the origin being zero.
     fn round_down(self, origin: f64) -> f32;
     /// An `f32` that is not below `self - origin`; for `f32` itself, the origin being zero.
     fn round_up(self, origin: f64) -> f32;
 }
 
+/// The part of `Real` that both types say in the same words.
+macro_rules! in_both {
+    ($type:ty) => {
+        const NAN: Self = <$type>::NAN;
+        const INFINITY: Self = <$type>::INFINITY;
+        const NEG_INFINITY: Self = <$type>::NEG_INFINITY;
+
+        #[inline]
+        fn to_f64(self) -> f64 {
+            self.into()
+        }
+        #[inline]
+        fn from_f64(x: f64) -> Self {
+            x as Self
+        }
+        #[inline]
+        fn is_in_range(self) -> bool {
+            self.abs() <= f32::MAX.into()
+        }
+        fn needs_subnormals(self) -> bool {
+            // Bits, because such a thread takes a subnormal number for zero; zero, less one, is the
+            // largest of all.
+            self.abs().to_bits().wrapping_sub(1) < Self::NEEDS_NONE.to_bits() - 1
+        }
+    };
+}
+
 impl Real for f32 {
-    const NAN: Self = f32::NAN;
-    const INFINITY: Self = f32::INFINITY;
-    const NEG_INFINITY: Self = f32::NEG_INFINITY;
+    in_both!(f32);
+
     const PRECISION: Precision = Precision::Single;
     const BOXES_ARE_EXACT: bool = true;
     // `past` rounds once to f32, after roundings that are 2^29 times smaller: together less than 2^-23. A result below 2^-126 may be taken
     // for zero.
     const FURTHER: f64 = f64::from_bits((1023 - 22) << 52);
     const LEAST: f64 = f64::from_bits((1023 - 124) << 52);
+    const NEEDS_NONE: Self = f32::MIN_POSITIVE;
 
-    #[inline]
-    fn to_f64(self) -> f64 {
-        self.into()
-    }
-    #[inline]
-    fn is_in_range(self) -> bool {
-        self.abs() <= f32::MAX
-    }
-    fn needs_subnormals(self) -> bool {
-        // Bits, because such a thread takes a subnormal number for zero; zero, less one, is the largest of all.
-        self.abs().to_bits().wrapping_sub(1) < f32::MIN_POSITIVE.to_bits() - 1
-    }
-    #[inline]
-    fn toward(self, to: Self, t: f64) -> Self {
-        f64::from(self).toward(to.into(), t) as f32
-    }
-    #[inline]
-    fn past(self, to: Self, t: f64) -> Self {
-        // Roundings are monotone, so this is not beyond the other end either.
-        past(self.into(), to.into(), t, Self::FURTHER, Self::LEAST) as f32
-    }
     #[inline]
     fn round_down(self, _origin: f64) -> f32 {
         self
@@ -94,38 +120,16 @@ impl Real for f32 {
 }
 
 impl Real for f64 {
-    const NAN: Self = f64::NAN;
-    const INFINITY: Self = f64::INFINITY;
-    const NEG_INFINITY: Self = f64::NEG_INFINITY;
+    in_both!(f64);
     const PRECISION: Precision = Precision::Double;
     const BOXES_ARE_EXACT: bool = false;
     // With L for the larger end: a difference of at most 2 L, a product with it and a sum of at most 3 L, and what is added to it, each rounded
     // to 2^-53 of itself: less than 2^-49 L. Each result below 2^-1022 may be taken for zero.
     const FURTHER: f64 = f64::from_bits((1023 - 49) << 52);
     const LEAST: f64 = f64::from_bits((1023 - 1018) << 52);
+    // 2^-969: from there on coordinates, and so their differences, are multiples of 2^-1021.
+    const NEEDS_NONE: Self = f64::from_bits((1023 - 969) << 52);
 
-    #[inline]
-    fn to_f64(self) -> f64 {
-        self
-    }
-    #[inline]
-    fn is_in_range(self) -> bool {
-        self.abs() <= f32::MAX.into()
-    }
-    fn needs_subnormals(self) -> bool {
-        // 2^-969: from there on coordinates, and so their differences, are multiples of 2^-1021.
-        let smallest = f64::from_bits((1023 - 969) << 52);
-        self.abs().to_bits().wrapping_sub(1) < smallest.to_bits() - 1
-    }
-    #[inline]
-    fn toward(self, to: Self, t: f64) -> Self {
-        let there = self + t * (to - self);
-        larger(smaller(there, larger(self, to)), smaller(self, to))
-    }
-    #[inline]
-    fn past(self, to: Self, t: f64) -> Self {
-        past(self, to, t, Self::FURTHER, Self::LEAST)
-    }
     #[inline]
     fn round_down(self, origin: f64) -> f32 {
         // Two roundings to nearest, to f64 and to f32, are off by less than a quarter of what is taken away here; so is that
@@ -141,16 +145,11 @@ impl Real for f64 {
     }
 }
 
-fn past(from: f64, to: f64, t: f64, further: f64, least: f64) -> f64 {
-    let there = from.toward(to, t);
-    let further = larger(from.abs(), to.abs()) * further + least;
-    if from < to {
-        smaller(there + further, to)
-    } else if from > to {
-        larger(there - further, to)
-    } else {
-        from
-    }
+/// The part `t` of the way from one to another, never beyond either end.
+#[inline]
+fn part_of_way(from: f64, to: f64, t: f64) -> f64 {
+    let there = from + t * (to - from);
+    larger(smaller(there, larger(from, to)), smaller(from, to))
 }
 
 /// 2^-22, four times the most by which rounding to the nearest `f32` is off.

@@ -17,8 +17,8 @@ pub(crate) struct Shape<'a, S> {
     pub(crate) triangles: &'a [[TreeVertex; 3]],
     /// Boxes are relative to this point (zero for `f32`).
     pub(crate) origin: Origin,
-    /// Counts the changes of shape; a box that was made in another epoch is stale.
-    pub(crate) epoch: u64,
+    /// Counts the changes of shape; a box that was made in another version is stale.
+    pub(crate) version: u64,
 }
 
 impl<S: Real> Shape<'_, S> {
@@ -87,7 +87,7 @@ mod tests {
                 positions: &Points::of(positions.iter().copied()),
                 triangles: &[[0, 1, 2], [3, 4, 5]].map(|corners| corners.map(TreeVertex)),
                 origin: wide_origin,
-                epoch: 1,
+                version: 1,
             };
             let boxes = [0, 1].map(|triangle| shape.box_of(TreeTriangle(triangle)));
             let mut bounds = Bounds::EMPTY;
@@ -101,7 +101,7 @@ mod tests {
                 assert!(holds(&parent, p, origin), "{p:?} {origin:?} {parent:?}");
             }
             assert!(
-                boxes.iter().all(|child| parent.holds(child)),
+                boxes.iter().all(|child| parent.holds_box(child)),
                 "{boxes:?} {parent:?}"
             );
             for axis in 0..3 {
@@ -139,7 +139,7 @@ mod tests {
             positions: &Points::of(positions.iter().copied()),
             triangles: &[[0, 1, 2].map(TreeVertex)],
             origin: [0.0; 4],
-            epoch: 1,
+            version: 1,
         };
         let expected = Aabb {
             lo: [3e-39, -1e-45, -1.0],

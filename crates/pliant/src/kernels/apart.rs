@@ -18,7 +18,7 @@
 //! of it, where these are a > 0 and b, they are above zero in exact arithmetic; a thousandth less is taken, which is more than the rounding
 //! of times if the gain is at least 2^-12. Smaller gains do not count.
 
-use super::coordinate::{Coordinate, CornersOfEight, Vectors};
+use super::coordinate::{Coordinate, Vectors};
 use super::vector::{dot, minus, plus, times};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, mask32x8};
@@ -39,16 +39,7 @@ const DIRECTIONS: usize = 3;
 
 /// The corners of eight pairs of elements at the start of a motion, 0 to 3, and at its end, 4 to 7: a vertex and the corners of a triangle;
 /// or both ends of either edge.
-pub(crate) struct MovingCorners<'p, S>(pub(crate) [[&'p [S; 4]; 8]; 8]);
-
-impl<S> CornersOfEight<S> for MovingCorners<'_, S> {
-    const COUNT: usize = 8;
-
-    #[inline(always)]
-    fn get(&self, corner: usize, lane: usize) -> &[S; 4] {
-        self.0[corner][lane]
-    }
-}
+pub(crate) type MovingCorners<'p, S> = [[&'p [S; 4]; 8]; 8];
 
 /// The differences of two elements: corners of a polygon that move. Of triangles the last is not used.
 struct Polygon<I: Simd> {
@@ -57,6 +48,21 @@ struct Polygon<I: Simd> {
     /// The larger magnitude of both.
     most: [Vectors<I>; 4],
 }
+
+/// Differences of two edges: the corners of a parallelogram in order, at the start and at the end.
+const OF_EDGES: [(usize, usize); 8] = [
+    (0, 2),
+    (1, 2),
+    (1, 3),
+    (0, 3),
+    (4, 6),
+    (5, 6),
+    (5, 7),
+    (4, 7),
+];
+
+/// Differences of a triangle's corners and a vertex: a triangle, at the start and at the end.
+const OF_TRIANGLES: [(usize, usize); 6] = [(1, 0), (2, 0), (3, 0), (5, 4), (6, 4), (7, 4)];
 
 /// Which of eight pairs surely stay further apart than `distance` up to `until`, at most 1.
 /// All are two edges each, or all are a vertex and a triangle.
@@ -68,56 +74,17 @@ pub(crate) fn apart<I: Simd, S: Coordinate>(
     until: f32,
     distance: f32,
 ) -> u8 {
+    let corner = |corner: usize, lane: usize| corners[corner][lane];
     if are_edges {
-        edges(i, corners, until, distance)
+        let [a0, b0, c0, d0, a1, b1, c1, d1] = S::differences(i, 8, corner, OF_EDGES);
+        let polygon = Polygon::new([a0, b0, c0, d0], [a1, b1, c1, d1]);
+        stays_off::<I, true>(&polygon, until, distance)
     } else {
-        vertices_and_triangles(i, corners, until, distance)
+        let [a0, b0, c0, a1, b1, c1] = S::differences(i, 8, corner, OF_TRIANGLES);
+        // The first corner again in place of a fourth costs little.
+        let polygon = Polygon::new([a0, b0, c0, a0], [a1, b1, c1, a1]);
+        stays_off::<I, false>(&polygon, until, distance)
     }
-}
-
-#[inline(always)]
-fn vertices_and_triangles<I: Simd, S: Coordinate>(
-    i: I,
-    corners: &MovingCorners<S>,
-    until: f32,
-    distance: f32,
-) -> u8 {
-    let [a0, b0, c0, a1, b1, c1] =
-        S::differences(i, corners, [(1, 0), (2, 0), (3, 0), (5, 4), (6, 4), (7, 4)]);
-    // The first corner again in place of a fourth costs little.
-    stays_off::<I, false>(
-        &Polygon::new([a0, b0, c0, a0], [a1, b1, c1, a1]),
-        until,
-        distance,
-    )
-}
-
-#[inline(always)]
-fn edges<I: Simd, S: Coordinate>(
-    i: I,
-    corners: &MovingCorners<S>,
-    until: f32,
-    distance: f32,
-) -> u8 {
-    let [a0, b0, c0, d0, a1, b1, c1, d1] = S::differences(
-        i,
-        corners,
-        [
-            (0, 2),
-            (1, 2),
-            (1, 3),
-            (0, 3),
-            (4, 6),
-            (5, 6),
-            (5, 7),
-            (4, 7),
-        ],
-    );
-    stays_off::<I, true>(
-        &Polygon::new([a0, b0, c0, d0], [a1, b1, c1, d1]),
-        until,
-        distance,
-    )
 }
 
 /// Which of eight polygons surely stay further from the origin than that.
@@ -134,11 +101,7 @@ fn stays_off<I: Simd, const ARE_EDGES: bool>(
     let mut are_apart = 0;
     for _ in 0..DIRECTIONS {
         let now = polygon.at(known);
-        let n = if ARE_EDGES {
-            nearest_of_parallelogram(&now)
-        } else {
-            nearest_of_triangle(&now)
-        };
+        let n = nearest_of::<I, ARE_EDGES>(&now);
         let wide = n[0].abs() + n[1].abs() + n[2].abs();
         // Divided by the length, which is off by less than 4 u of itself, the projections would be distances.
         let level = dot(n, n).sqrt() * splat(distance * (1.0 + f32::EPSILON * 8.0));
@@ -226,28 +189,11 @@ impl<I: Simd> Nearest<I> {
     }
 }
 
-/// About the point of a triangle that is nearest to the origin.
+/// About the point of a parallelogram, or of a triangle, that is nearest to the origin.
 #[inline(always)]
-fn nearest_of_triangle<I: Simd>([a, b, c, _]: &[Vectors<I>; 4]) -> Vectors<I> {
-    let (e, f, g) = (minus(*b, *a), minus(*c, *a), minus(*c, *b));
-    let first = on_segment(*a, e);
-    let mut nearest = Nearest {
-        point: first,
-        square: dot(first, first),
-    };
-    nearest.take(None, on_segment(*a, f));
-    nearest.take(None, on_segment(*b, g));
-    let (x, y, is_inside) = foot(*a, e, f);
-    let one = f32x8::splat(x.token(), 1.0);
-    let is_inside = is_inside & (x + y).simd_le(one);
-    nearest.take(Some(is_inside), along(along(*a, x, e), y, f));
-    nearest.point
-}
-
-/// About the point of a parallelogram that is nearest to the origin.
-#[inline(always)]
-fn nearest_of_parallelogram<I: Simd>([a, b, c, d]: &[Vectors<I>; 4]) -> Vectors<I> {
-    let (e, f) = (minus(*b, *a), minus(*d, *a));
+fn nearest_of<I: Simd, const ARE_EDGES: bool>([a, b, c, d]: &[Vectors<I>; 4]) -> Vectors<I> {
+    let last = if ARE_EDGES { d } else { c };
+    let (e, f) = (minus(*b, *a), minus(*last, *a));
     let first = on_segment(*a, e);
     let mut nearest = Nearest {
         point: first,
@@ -255,11 +201,20 @@ fn nearest_of_parallelogram<I: Simd>([a, b, c, d]: &[Vectors<I>; 4]) -> Vectors<
     };
     nearest.take(None, on_segment(*a, f));
     nearest.take(None, on_segment(*b, minus(*c, *b)));
-    nearest.take(None, on_segment(*d, minus(*c, *d)));
+    if ARE_EDGES {
+        nearest.take(None, on_segment(*d, minus(*c, *d)));
+    }
     let (x, y, is_inside) = foot(*a, e, f);
     let one = f32x8::splat(x.token(), 1.0);
-    let is_inside = is_inside & x.simd_le(one) & y.simd_le(one);
-    nearest.take(Some(is_inside), along(along(*a, x, e), y, f));
+    let are_not_beyond = if ARE_EDGES {
+        x.simd_le(one) & y.simd_le(one)
+    } else {
+        (x + y).simd_le(one)
+    };
+    nearest.take(
+        Some(is_inside & are_not_beyond),
+        along(along(*a, x, e), y, f),
+    );
     nearest.point
 }
 
@@ -315,17 +270,15 @@ mod tests {
             let padded = corners.iter().map(|&[x, y, z]| [x, y, z, z].map(of));
             padded.collect::<Vec<[S; 4]>>()
         });
-        let mut corners = MovingCorners([[&padded[0][0]; 8]; 8]);
+        let mut corners = [[&padded[0][0]; 8]; 8];
         for (lane, pair) in padded.iter().enumerate() {
             for (which, corner) in pair.iter().enumerate() {
-                corners.0[which][lane] = corner;
+                corners[which][lane] = corner;
             }
         }
         let of_all = Instructions::all().into_iter().map(|instructions| {
-            dispatch!(instructions, i => match elements {
-                Elements::VertexTriangle => vertices_and_triangles(i, &corners, until, distance),
-                Elements::EdgeEdge => edges(i, &corners, until, distance),
-            })
+            let are_edges = matches!(elements, Elements::EdgeEdge);
+            dispatch!(instructions, i => apart(i, are_edges, &corners, until, distance))
         });
         let of_all: Vec<u8> = of_all.collect();
         assert!(of_all.iter().all(|claims| *claims == of_all[0]));

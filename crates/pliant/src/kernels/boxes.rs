@@ -123,20 +123,41 @@ impl<const N: usize> BoxLanes<N> {
     }
 }
 
+/// Eight boxes in registers.
+pub(super) struct Registers<I: Simd> {
+    pub(super) lo: [f32x8<I>; 3],
+    pub(super) hi: [f32x8<I>; 3],
+}
+
+impl<I: Simd> Registers<I> {
+    #[inline(always)]
+    pub(super) fn none(i: I) -> Self {
+        let none = f32x8::splat(i, 0.0);
+        let (lo, hi) = ([none; 3], [none; 3]);
+        Self { lo, hi }
+    }
+
+    /// Fewer than eight have empty ones behind them.
+    #[inline(always)]
+    pub(super) fn new<const N: usize>(i: I, lanes: &BoxLanes<N>) -> Self {
+        let mut boxes = Self::none(i);
+        for axis in 0..3 {
+            boxes.lo[axis] = eight(i, &lanes.lo[axis]);
+            boxes.hi[axis] = eight(i, &lanes.hi[axis]);
+        }
+        boxes
+    }
+}
+
 /// Bit 8 i + j is set if lane i of `a` overlaps lane j of `b`; touching counts.
 #[inline(always)]
 pub(crate) fn overlap_mask<I: Simd, const N: usize>(i: I, a: &BoxLanes<N>, b: &BoxLanes<N>) -> u64 {
-    let empty = f32x8::splat(i, f32::NAN);
-    let (mut b_lo, mut b_hi) = ([empty; 3], [empty; 3]);
-    for axis in 0..3 {
-        b_lo[axis] = eight(i, &b.lo[axis]);
-        b_hi[axis] = eight(i, &b.hi[axis]);
-    }
+    let b = Registers::new(i, b);
     let mut mask = 0;
     for lane in 0..N {
-        let x = b_lo[0].simd_le(a.hi[0][lane]) & b_hi[0].simd_ge(a.lo[0][lane]);
-        let y = b_lo[1].simd_le(a.hi[1][lane]) & b_hi[1].simd_ge(a.lo[1][lane]);
-        let z = b_lo[2].simd_le(a.hi[2][lane]) & b_hi[2].simd_ge(a.lo[2][lane]);
+        let x = b.lo[0].simd_le(a.hi[0][lane]) & b.hi[0].simd_ge(a.lo[0][lane]);
+        let y = b.lo[1].simd_le(a.hi[1][lane]) & b.hi[1].simd_ge(a.lo[1][lane]);
+        let z = b.lo[2].simd_le(a.hi[2][lane]) & b.hi[2].simd_ge(a.lo[2][lane]);
         mask |= (x & y & z).to_bitmask() << (8 * lane);
     }
     mask
@@ -158,18 +179,14 @@ pub(crate) fn near_mask<I: Simd, const N: usize>(
 ) -> u64 {
     let most = (limit * (1.0 + f64::powi(0.5, 20)) + f64::powi(0.5, 100)) as f32;
     let (zero, most) = (f32x8::splat(i, 0.0), f32x8::splat(i, most.next_up()));
-    let (mut b_lo, mut b_hi) = ([zero; 3], [zero; 3]);
-    for axis in 0..3 {
-        b_lo[axis] = eight(i, &b.lo[axis]);
-        b_hi[axis] = eight(i, &b.hi[axis]);
-    }
+    let b = Registers::new(i, b);
     let columns = u64::MAX >> (64 - len_b);
     let mut mask = 0;
     for lane in 0..len_a {
         let mut square = zero;
         for axis in 0..3 {
-            let below = b_lo[axis] - a.hi[axis][lane];
-            let above = f32x8::splat(i, a.lo[axis][lane]) - b_hi[axis];
+            let below = b.lo[axis] - a.hi[axis][lane];
+            let above = f32x8::splat(i, a.lo[axis][lane]) - b.hi[axis];
             let gap = below.simd_gt(zero).select(below, zero);
             let gap = above.simd_gt(zero).select(above, gap);
             square += gap * gap;
@@ -181,7 +198,7 @@ pub(crate) fn near_mask<I: Simd, const N: usize>(
 
 /// A row of N numbers as eight, the rest empty.
 #[inline(always)]
-pub(super) fn eight<I: Simd, const N: usize>(i: I, row: &[f32; N]) -> f32x8<I> {
+fn eight<I: Simd, const N: usize>(i: I, row: &[f32; N]) -> f32x8<I> {
     if let Ok(eight) = row.as_slice().try_into() {
         return f32x8::load_array_ref(i, eight);
     }

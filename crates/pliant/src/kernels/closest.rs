@@ -37,7 +37,7 @@
 //! of corners relative to one of them a projection is off by 4 u of the sum of its coordinates, so `apart_along` by less than 7 u S, with S for
 //! the sum of the largest such sums of either triangle; it allows 20 u S too.
 
-use super::Coordinate;
+use super::coordinate::{Coordinate, eight_differences, turn};
 use super::vector::{Vector, cross, difference, dot, minus, plus, square_of, times};
 use crate::geometry::Real;
 use fearless_simd::prelude::*;
@@ -145,24 +145,33 @@ impl<V> Best<V> {
     }
 }
 
-/// Where points p and triangles a b c are closest: corners in this order.
+/// Where four pairs of elements are closest: edges a0 a1 and b0 b1, or points p and triangles a b
+/// c; corners in this order.
 #[inline(always)]
-pub(crate) fn of_vertices_and_triangles<I: Simd, S: Real>(
+pub(crate) fn of_elements<I: Simd, S: Real>(
     i: I,
+    are_edges: bool,
     pairs: &[Corners<S>; 4],
 ) -> FourClosest {
-    let [p, a, b, c] = [
+    let [p, q, r, s] = [
         lanes(i, pairs, 0),
         lanes(i, pairs, 1),
         lanes(i, pairs, 2),
         lanes(i, pairs, 3),
     ];
-    let (e1, e2, e3) = (minus(b, a), minus(c, a), minus(c, b));
-    let (t, of_b, of_c) = (minus(p, a), minus(p, b), minus(p, c));
-    vertices_and_triangles(i, [t, of_b, of_c], [e1, e2, e3]).store()
+    let found = if are_edges {
+        let differences = [minus(p, r), minus(q, r), minus(p, s), minus(q, s)];
+        edges_and_edges(i, differences, [minus(q, p), minus(s, r)])
+    } else {
+        let (e1, e2, e3) = (minus(r, q), minus(s, q), minus(s, r));
+        let differences = [minus(p, q), minus(p, r), minus(p, s)];
+        vertices_and_triangles(i, differences, [e1, e2, e3])
+    };
+    found.store()
 }
 
-/// The same of differences: of the points from a, b and c; of b and c from a, and of c from b.
+/// Where points and triangles a b c are closest, by differences: of the points from a, b and c; of
+/// b and c from a, and of c from b.
 #[inline(always)]
 fn vertices_and_triangles<I: Simd, V: Lanes<I>>(
     i: I,
@@ -199,21 +208,8 @@ fn vertices_and_triangles<I: Simd, V: Lanes<I>>(
     bounds(i, [x, y], way, least, [t, e1, e2])
 }
 
-/// Where edges a0 a1 and b0 b1 are closest: corners in this order.
-#[inline(always)]
-pub(crate) fn of_edges<I: Simd, S: Real>(i: I, pairs: &[Corners<S>; 4]) -> FourClosest {
-    let [a0, a1, b0, b1] = [
-        lanes(i, pairs, 0),
-        lanes(i, pairs, 1),
-        lanes(i, pairs, 2),
-        lanes(i, pairs, 3),
-    ];
-    let (e, f) = (minus(a1, a0), minus(b1, b0));
-    let (t, t10, t01, t11) = (minus(a0, b0), minus(a1, b0), minus(a0, b1), minus(a1, b1));
-    edges_and_edges(i, [t, t10, t01, t11], [e, f]).store()
-}
-
-/// The same of differences: of the ends of the first from those of the second, and of the ends of either.
+/// Where edges are closest, by differences: of the ends of the first from those of the second, and
+/// of the ends of either.
 #[inline(always)]
 fn edges_and_edges<I: Simd, V: Lanes<I>>(
     i: I,
@@ -287,21 +283,18 @@ pub(crate) fn of_triangles<I: Simd, S: Real>(
     let mut least_of_nearest = f64::NEG_INFINITY;
     let mut first = 0;
     while first < ELEMENT_PAIRS {
-        let end = if first < FIRST_OF_EDGES {
-            FIRST_OF_EDGES
-        } else {
+        let are_edges = first >= FIRST_OF_EDGES;
+        let end = if are_edges {
             ELEMENT_PAIRS
+        } else {
+            FIRST_OF_EDGES
         };
         let count = (end - first).min(4);
         let mut pairs = [four_corners(first, a, b); 4];
         for lane in 1..count {
             pairs[lane] = four_corners(first + lane, a, b);
         }
-        let found = if first < FIRST_OF_EDGES {
-            of_vertices_and_triangles(i, &pairs)
-        } else {
-            of_edges(i, &pairs)
-        };
+        let found = of_elements(i, are_edges, &pairs);
         for lane in 0..count {
             nearest.most = nearest.most.min(found.most[lane]);
             if found.distance[lane] < nearest.distance {
@@ -334,8 +327,8 @@ pub(crate) fn of_triangles<I: Simd, S: Real>(
     nearest
 }
 
-/// Which of eight pairs are surely at most so far apart, and which surely further, as bits; what is in neither is for `of_edges` and
-/// `of_vertices_and_triangles`, or for exact arithmetic.
+/// Which of eight pairs are surely at most so far apart, and which surely further, as bits; what is
+/// in neither is for `of_elements`, or for exact arithmetic.
 #[inline(always)]
 pub(crate) fn decide_eight<I: Simd, S: Coordinate>(
     i: I,
@@ -343,20 +336,13 @@ pub(crate) fn decide_eight<I: Simd, S: Coordinate>(
     pairs: &[Corners<S>; 8],
     distance: f64,
 ) -> [u64; 2] {
+    let less = |k: usize, l: usize| eight_differences(i, |lane| [pairs[lane][k], pairs[lane][l]]);
     let found = if are_edges {
-        let t = S::minus_eight(i, pairs, [0, 2]);
-        let (e, f) = (
-            S::minus_eight(i, pairs, [1, 0]),
-            S::minus_eight(i, pairs, [3, 2]),
-        );
+        let (t, e, f) = (less(0, 2), less(1, 0), less(3, 2));
         let (t10, t01) = (plus(t, e), minus(t, f));
         edges_and_edges(i, [t, t10, t01, minus(t10, f)], [e, f])
     } else {
-        let t = S::minus_eight(i, pairs, [0, 1]);
-        let (e1, e2) = (
-            S::minus_eight(i, pairs, [2, 1]),
-            S::minus_eight(i, pairs, [3, 1]),
-        );
+        let (t, e1, e2) = (less(0, 1), less(2, 1), less(3, 1));
         let differences = [t, minus(t, e1), minus(t, e2)];
         vertices_and_triangles(i, differences, [e1, e2, minus(e2, e1)])
     };
@@ -494,11 +480,7 @@ fn lanes<I: Simd, S: Real>(i: I, pairs: &[Corners<S>; 4], which: usize) -> Vecto
         let [x, y, z, w] = *pairs[lane][which];
         f64x4::load_array(i, [x.to_f64(), y.to_f64(), z.to_f64(), w.to_f64()])
     };
-    let (a, b, c, d) = (load(0), load(1), load(2), load(3));
-    // Four rows to columns, of which the last is padding.
-    let (ac, bd) = (a.zip_low(c), b.zip_low(d));
-    let (ac_high, bd_high) = (a.zip_high(c), b.zip_high(d));
-    [ac.zip_low(bd), ac.zip_high(bd), ac_high.zip_low(bd_high)]
+    turn([load(0), load(1), load(2), load(3)])
 }
 
 #[cfg(test)]
@@ -535,10 +517,7 @@ mod tests {
             four.map(|[x, y, z]| [x, y, z, z])
         });
         let pairs = corners.each_ref().map(<[_; 4]>::each_ref);
-        match all[0] {
-            Primitives::VertexTriangle(_) => of_vertices_and_triangles(i, &pairs),
-            Primitives::EdgeEdge(_) => of_edges(i, &pairs),
-        }
+        of_elements(i, matches!(all[0], Primitives::EdgeEdge(_)), &pairs)
     }
 
     #[test]

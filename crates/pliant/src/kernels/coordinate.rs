@@ -65,33 +65,29 @@ pub(crate) trait Coordinate: Real {
         (lo.max(least).min(most), hi.max(least).min(most))
     }
 
-    /// Differences of points as lanes, each coordinate rounded to the nearest f32 (of f64 to the nearest f64 before): for every
-    /// (a, b) corner a minus corner b.
+    /// Differences of points as lanes, each coordinate rounded to the nearest f32 (of f64 to the
+    /// nearest f64 before): for every (a, b) corner a minus corner b. `corner` gives a corner by
+    /// its number and lane, of eight things that have `count` corners each, at most eight.
     #[inline(always)]
-    fn differences<I: Simd, C: CornersOfEight<Self>, const D: usize>(
+    fn differences<'p, I: Simd, const D: usize>(
         i: I,
-        corners: &C,
+        _count: usize,
+        corner: impl Fn(usize, usize) -> &'p [Self; 4],
         of: [(usize, usize); D],
     ) -> [Vectors<I>; D] {
         let mut rows = [[f32x8::splat(i, 0.0); 3]; D];
         for which in 0..D {
             let (a, b) = of[which];
-            rows[which] = eight_differences(i, |lane| [corners.get(a, lane), corners.get(b, lane)]);
+            rows[which] = eight_differences(i, |lane| [corner(a, lane), corner(b, lane)]);
         }
         rows
-    }
-
-    /// The same of eight rows of four points: point k less point l.
-    #[inline(always)]
-    fn minus_eight<I: Simd>(i: I, rows: &[[&[Self; 4]; 4]; 8], [k, l]: [usize; 2]) -> Vectors<I> {
-        eight_differences(i, |lane| [rows[lane][k], rows[lane][l]])
     }
 }
 
 /// The differences of two points each as lanes. They are taken before anything is rounded, because
 /// an f32 may not hold the points.
 #[inline(always)]
-fn eight_differences<'p, I: Simd, S: Coordinate>(
+pub(super) fn eight_differences<'p, I: Simd, S: Coordinate>(
     i: I,
     points: impl Fn(usize) -> [&'p [S; 4]; 2],
 ) -> Vectors<I> {
@@ -104,12 +100,6 @@ fn eight_differences<'p, I: Simd, S: Coordinate>(
     lanes_of(eight)
 }
 
-/// The corners of eight things, up to eight of each.
-pub(crate) trait CornersOfEight<S> {
-    const COUNT: usize;
-    fn get(&self, corner: usize, lane: usize) -> &[S; 4];
-}
-
 /// The corners of eight pairs of triangles A and B; of A 0, 1 and 2, of B 3, 4 and 5.
 #[derive(Clone, Copy)]
 pub(crate) struct Corners<'p, S> {
@@ -117,12 +107,18 @@ pub(crate) struct Corners<'p, S> {
     pub(crate) vertices: [[TreeVertex; 6]; 8],
 }
 
-impl<S> CornersOfEight<S> for Corners<'_, S> {
-    const COUNT: usize = 6;
-
+impl<S: Coordinate> Corners<'_, S> {
+    /// Differences of the corners of each pair.
     #[inline(always)]
-    fn get(&self, corner: usize, lane: usize) -> &[S; 4] {
-        self.positions[corner / 3].padded(self.vertices[lane][corner])
+    pub(super) fn differences<I: Simd, const D: usize>(
+        &self,
+        i: I,
+        of: [(usize, usize); D],
+    ) -> [Vectors<I>; D] {
+        let corner = |corner: usize, lane: usize| {
+            self.positions[corner / 3].padded(self.vertices[lane][corner])
+        };
+        S::differences(i, 6, corner, of)
     }
 }
 
@@ -143,20 +139,21 @@ impl Coordinate for f32 {
     }
 
     #[inline(always)]
-    fn differences<I: Simd, C: CornersOfEight<Self>, const D: usize>(
+    fn differences<'p, I: Simd, const D: usize>(
         i: I,
-        corners: &C,
+        count: usize,
+        corner: impl Fn(usize, usize) -> &'p [Self; 4],
         of: [(usize, usize); D],
     ) -> [Vectors<I>; D] {
         // Lanes first, differences of lanes then: a turn for every corner instead of one for every difference.
         let zero = f32x8::splat(i, 0.0);
         let mut points = [[zero; 3]; 8];
-        for corner in 0..C::COUNT {
+        for which in 0..count {
             let mut eight = [f32x4::splat(i, 0.0); 8];
             for lane in 0..8 {
-                eight[lane] = f32x4::load_array_ref(i, corners.get(corner, lane));
+                eight[lane] = f32x4::load_array_ref(i, corner(which, lane));
             }
-            points[corner] = lanes_of(eight);
+            points[which] = lanes_of(eight);
         }
         let mut rows = [[zero; 3]; D];
         for which in 0..D {
@@ -198,7 +195,7 @@ pub(super) fn lanes_of<I: Simd>(points: [f32x4<I>; 8]) -> Vectors<I> {
 
 /// Four points as x, y, z.
 #[inline(always)]
-pub(super) fn turn<I: Simd>([a, b, c, d]: [f32x4<I>; 4]) -> [f32x4<I>; 3] {
+pub(super) fn turn<I: Simd, V: SimdBase<I>>([a, b, c, d]: [V; 4]) -> [V; 3] {
     // ax cx ay cy, az cz .. ..; bx dx by dy, ...; zipped again: ax bx cx dx, ay by cy dy, az bz cz dz.
     let (ac, bd) = (a.zip_low(c), b.zip_low(d));
     let (ac_high, bd_high) = (a.zip_high(c), b.zip_high(d));

@@ -237,7 +237,7 @@ mod tests {
             positions: &positions,
             triangles: &triangles,
             origin,
-            epoch: 1,
+            version: 1,
         };
         for instructions in Instructions::all() {
             dispatch!(instructions, i => {

@@ -14,7 +14,7 @@
 //! 2^-21 m + 2^-120. Sides that were beyond `f32` are off by more: where m is not far below the largest `f32`, no limit is sure.
 
 use super::Coordinate;
-use super::boxes::{EightBoxes, eight};
+use super::boxes::{EightBoxes, Registers};
 use super::coordinate::lanes_of;
 use crate::geometry::{Aabb, Points, Real, Shape};
 use crate::ids::TreeVertex;
@@ -117,30 +117,7 @@ pub(crate) fn of_elements<I: Simd, S: Coordinate, const C: usize>(
     }
 }
 
-/// Eight boxes in registers.
-pub(super) struct Registers<I: Simd> {
-    pub(super) lo: [f32x8<I>; 3],
-    pub(super) hi: [f32x8<I>; 3],
-}
-
 impl<I: Simd> Registers<I> {
-    #[inline(always)]
-    pub(super) fn none(i: I) -> Self {
-        let none = f32x8::splat(i, 0.0);
-        let (lo, hi) = ([none; 3], [none; 3]);
-        Self { lo, hi }
-    }
-
-    #[inline(always)]
-    fn new(i: I, lanes: &EightBoxes) -> Self {
-        let mut boxes = Self::none(i);
-        for axis in 0..3 {
-            boxes.lo[axis] = eight(i, &lanes.lo[axis]);
-            boxes.hi[axis] = eight(i, &lanes.hi[axis]);
-        }
-        boxes
-    }
-
     /// The gap of each to that in the same lane of others.
     #[inline(always)]
     pub(super) fn gaps_to(&self, others: &Self) -> f32x8<I> {
@@ -248,7 +225,7 @@ mod tests {
                 positions: &points,
                 triangles: &[],
                 origin,
-                epoch: 1,
+                version: 1,
             };
             let triangles = [[0, 1, 2], [3, 4, 5]].map(|it| it.map(TreeVertex));
             let lanes = triangles.map(|corners| corners.map(|corner| [corner.0; 8]));

@@ -4,7 +4,8 @@
 //! turns by 1 to n / 2 give all pairs of n elements, with few twice; each element beside eight others takes twice as many comparisons.
 
 use super::EightBoxes;
-use super::gaps::{EightCorners, Limits, Registers};
+use super::boxes::Registers;
+use super::gaps::{EightCorners, Limits};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, u32x8};
 

@@ -43,9 +43,8 @@ pub(crate) struct PlaneSigns {
 #[inline(always)]
 pub(crate) fn plane_signs<I: Simd, S: Coordinate>(i: I, corners: &Corners<S>) -> PlaneSigns {
     let (a0, a1, a2, b0, b1, b2) = (0, 1, 2, 3, 4, 5);
-    let [a_1, a_2, a_b, a_b1, a_b2, b_1, b_2, b_a1, b_a2] = S::differences(
+    let [a_1, a_2, a_b, a_b1, a_b2, b_1, b_2, b_a1, b_a2] = corners.differences(
         i,
-        corners,
         [
             (a1, a0),
             (a2, a0),
@@ -131,7 +130,7 @@ pub(crate) struct LineSigns {
 /// The orientations of p1 q1 p2 q2 and of p1 r1 r2 p2, for corners p1 q1 r1 of A and p2 q2 r2 of B.
 #[inline(always)]
 pub(crate) fn line_signs<I: Simd, S: Coordinate>(i: I, corners: &Corners<S>) -> LineSigns {
-    let [q1, r1, p2, q2, r2] = S::differences(i, corners, [(1, 0), (2, 0), (3, 0), (4, 0), (5, 0)]);
+    let [q1, r1, p2, q2, r2] = corners.differences(i, [(1, 0), (2, 0), (3, 0), (4, 0), (5, 0)]);
     let (lq1, lr1, lp2) = (length(q1), length(r1), length(p2));
     let (lq2, lr2) = (length(q2), length(r2));
     let [first_plus, first_minus] = compare(dot(cross(q1, p2), q2), lq1 * lp2 * ROOM * lq2);

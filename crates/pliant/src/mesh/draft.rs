@@ -2,7 +2,7 @@
 //!
 //! Cost: what the steps name, and the triangles at the vertices of these; whatever the size of the mesh.
 
-use super::topology::{EMPTY, MAX_TRIANGLES, MAX_VERTICES};
+use super::topology::{EMPTY, check_counts};
 use super::{Bits, Changed, Topology, TrianglesAt};
 use crate::ErrorKind;
 use crate::edit::Step;
@@ -81,9 +81,7 @@ impl<'m, S: Copy> Draft<'m, S> {
                 }
             }
             &Step::PlaceVertex(vertex, position) => {
-                if vertex as usize >= self.vertices {
-                    return Err(self.no_such_vertex(vertex));
-                }
+                self.check_number(vertex)?;
                 if !self.is_empty(vertex) {
                     return Err(ErrorKind::VertexInUse { vertex });
                 }
@@ -120,13 +118,11 @@ impl<'m, S: Copy> Draft<'m, S> {
             }
             Step::AddTriangles(all) => {
                 for &corners in all {
-                    let triangle = self.triangles;
-                    if triangle >= MAX_TRIANGLES {
-                        return Err(too_large("triangles", triangle + 1, MAX_TRIANGLES));
-                    }
-                    self.check_corners(triangle as u32, corners)?;
+                    let triangle = self.triangles as u32;
+                    check_counts(self.triangles + 1, self.vertices)?;
+                    self.check_corners(triangle, corners)?;
                     self.triangles += 1;
-                    self.set(triangle as u32, corners);
+                    self.set(triangle, corners);
                 }
             }
             &Step::SetTriangle(triangle, corners) => {
@@ -172,9 +168,7 @@ impl<'m, S: Copy> Draft<'m, S> {
     }
 
     fn add_vertex(&mut self, position: [S; 3]) -> Result<u32, ErrorKind> {
-        if self.vertices >= MAX_VERTICES {
-            return Err(too_large("vertices", self.vertices + 1, MAX_VERTICES));
-        }
+        check_counts(self.triangles, self.vertices + 1)?;
         let vertex = self.vertices as u32;
         self.vertices += 1;
         self.place(vertex, position);
@@ -237,17 +231,16 @@ impl<'m, S: Copy> Draft<'m, S> {
             || self.empty.has(vertex) && !self.positions.contains_key(&vertex)
     }
 
-    fn no_such_vertex(&self, vertex: u32) -> ErrorKind {
-        ErrorKind::NoSuchVertex {
-            vertex,
-            vertices: self.vertices,
+    fn check_number(&self, vertex: u32) -> Result<(), ErrorKind> {
+        let vertices = self.vertices;
+        if vertex as usize >= vertices {
+            return Err(ErrorKind::NoSuchVertex { vertex, vertices });
         }
+        Ok(())
     }
 
     fn check_vertex(&self, vertex: u32) -> Result<(), ErrorKind> {
-        if vertex as usize >= self.vertices {
-            return Err(self.no_such_vertex(vertex));
-        }
+        self.check_number(vertex)?;
         if self.is_empty(vertex) {
             return Err(ErrorKind::EmptyVertex { vertex });
         }
@@ -255,10 +248,11 @@ impl<'m, S: Copy> Draft<'m, S> {
     }
 
     fn check_triangle(&self, triangle: u32) -> Result<(), ErrorKind> {
-        if triangle as usize >= self.triangles {
+        let triangles = self.triangles;
+        if triangle as usize >= triangles {
             return Err(ErrorKind::NoSuchTriangle {
                 triangle,
-                triangles: self.triangles,
+                triangles,
             });
         }
         Ok(())
@@ -282,9 +276,7 @@ impl<'m, S: Copy> Draft<'m, S> {
                     vertices: self.vertices,
                 });
             }
-            if self.is_empty(vertex) {
-                return Err(ErrorKind::EmptyVertex { vertex });
-            }
+            self.check_vertex(vertex)?;
         }
         Ok(())
     }
@@ -293,8 +285,4 @@ impl<'m, S: Copy> Draft<'m, S> {
 /// Corners with one vertex in place of another.
 fn renamed(corners: [u32; 3], from: u32, to: u32) -> [u32; 3] {
     corners.map(|vertex| if vertex == from { to } else { vertex })
-}
-
-fn too_large(what: &'static str, count: usize, limit: usize) -> ErrorKind {
-    ErrorKind::TooLarge { what, count, limit }
 }

@@ -9,6 +9,7 @@
 mod edge_index;
 mod follow;
 
+use super::edges::{SortedEdges, UNINTERRUPTED};
 use super::{Order, Topology};
 use crate::held::{self, held};
 use crate::ids::{TreeTriangle, TreeVertex};
@@ -35,59 +36,62 @@ pub(crate) struct Elements {
     index: Option<Box<EdgeIndex>>,
 }
 
-/// So many triangles are gone through before it is asked whether somebody wants to stop.
-const UNINTERRUPTED: usize = 1 << 14;
-
 impl Elements {
     /// Of a mesh in tree order; `None` if `stop` said so on the way. Linear, but for the edges at one vertex, which are sorted.
     pub(crate) fn new(topology: &Topology, order: &Order, stop: &dyn Fn() -> bool) -> Option<Self> {
-        let callers = CallersEdges::new(topology, stop)?;
+        let triangles = topology.triangles();
+        let callers = SortedEdges::new(triangles, topology.vertex_count(), |_| true, stop)?;
         let mut elements = Self {
             callers: Vec::new(),
             ends: Vec::with_capacity(callers.edges.len()),
             numbers: Vec::with_capacity(callers.edges.len()),
-            firsts: Vec::with_capacity(topology.triangles().len() + 1),
+            firsts: Vec::with_capacity(triangles.len() + 1),
             tree_vertices: OnceLock::new(),
             index: None,
         };
-        elements.give_to_triangles(&callers, order, stop)?;
+        let mut is_given = vec![false; callers.edges.len()];
+        elements.give_to_triangles(order, TreeTriangle(0), 0, stop, |triangle, side, _| {
+            let ends = SIDES[side].map(|i| order.corners(triangle)[i]);
+            // An orphan is called what its alias is.
+            if ends.iter().any(|end| order.orphans().has(end.0)) {
+                return None;
+            }
+            // A triangle that was taken out may have had edges of its own.
+            let number = callers.number_of(ends.map(|end| order.caller_vertex(end).0))?;
+            let was_given = std::mem::replace(&mut is_given[number as usize], true);
+            (!was_given).then_some(number)
+        })?;
         elements.callers = callers.edges;
         Some(elements)
     }
 
-    /// Gives every edge to the first triangle in tree order that has it, and says what belongs to
-    /// each. `None` if `stop` said so.
+    /// Gives triangles from a place on, in tree order, the vertices and edges that none before them
+    /// has.
+    ///
+    /// The first `used` vertices are known. `new_edge` is told a triangle, a side of it, and the
+    /// number in tree order that its edge would have. It returns the caller's number of the edge if
+    /// none has it yet. `None` if `stop` said so.
     fn give_to_triangles(
         &mut self,
-        callers: &CallersEdges,
         order: &Order,
+        first: TreeTriangle,
+        mut used: u32,
         stop: &dyn Fn() -> bool,
+        mut new_edge: impl FnMut(TreeTriangle, usize, u32) -> Option<u32>,
     ) -> Option<()> {
-        let mut is_given = vec![false; callers.edges.len()];
-        let mut used = 0;
-        for (at, corners) in order.all_corners().iter().enumerate() {
+        for at in first.0..order.all_corners().len() as u32 {
+            let corners = order.corners(TreeTriangle(at));
             self.firsts.push([used, self.ends.len() as u32]);
-            for corner in corners {
-                used = used.max(corner.0 + 1);
-            }
-            let triangle = corners.map(|vertex| order.caller_vertex(vertex).0);
-            for [i, j] in [[0, 1], [1, 2], [2, 0]] {
-                // An orphan is called what its alias is.
-                let is_orphan = |corner: usize| order.orphans().has(corners[corner].0);
-                if triangle[i] == triangle[j] || is_orphan(i) || is_orphan(j) {
-                    continue;
-                }
-                // A triangle that was taken out may have had edges of its own.
-                let Some(number) = callers.number_of([triangle[i], triangle[j]]) else {
-                    continue;
-                };
-                if !is_given[number] {
-                    is_given[number] = true;
-                    self.ends.push([corners[i], corners[j]]);
-                    self.numbers.push(number as u32);
+            used = corners
+                .iter()
+                .fold(used, |used, corner| used.max(corner.0 + 1));
+            for (side, ends) in SIDES.into_iter().enumerate() {
+                if let Some(number) = new_edge(TreeTriangle(at), side, self.ends.len() as u32) {
+                    self.ends.push(ends.map(|i| corners[i]));
+                    self.numbers.push(number);
                 }
             }
-            if at % UNINTERRUPTED == 0 && stop() {
+            if at.is_multiple_of(UNINTERRUPTED as u32) && stop() {
                 return None;
             }
         }
@@ -153,98 +157,8 @@ impl Elements {
     }
 }
 
-/// The edges of a mesh in the caller's order, each once, while elements are made.
-struct CallersEdges {
-    edges: Vec<[u32; 2]>,
-    /// For each vertex the first edge of which it is the lower end; and how many edges there are.
-    first_of_vertex: Vec<u32>,
-}
-
-impl CallersEdges {
-    /// `None` if `stop` said so on the way.
-    fn new(topology: &Topology, stop: &dyn Fn() -> bool) -> Option<Self> {
-        let vertices = topology.vertex_count();
-        let mut next = counted_by_lower_end(topology, stop)?;
-        let mut higher = higher_ends(topology, &mut next, stop)?;
-        // Where those of a vertex went ends where those of the next began; what is left of them are
-        // edges, each once.
-        let mut edges = Vec::with_capacity(higher.len() / 2 + 1);
-        let mut first_of_vertex = Vec::with_capacity(vertices + 1);
-        let mut start = 0;
-        for vertex in 0..vertices {
-            first_of_vertex.push(edges.len() as u32);
-            let end = next[vertex] as usize;
-            let others = &mut higher[start..end];
-            others.sort_unstable();
-            let mut last = None;
-            for &mut other in others {
-                if last != Some(other) {
-                    edges.push([vertex as u32, other]);
-                }
-                last = Some(other);
-            }
-            start = end;
-            if vertex % UNINTERRUPTED == 0 && stop() {
-                return None;
-            }
-        }
-        first_of_vertex.push(edges.len() as u32);
-        drop((next, higher));
-        edges.shrink_to_fit();
-        Some(Self {
-            edges,
-            first_of_vertex,
-        })
-    }
-
-    /// The number of the edge with these ends, if there is one.
-    #[inline]
-    fn number_of(&self, [a, b]: [u32; 2]) -> Option<usize> {
-        let [low, high] = [a.min(b), a.max(b)];
-        let ends = [0, 1].map(|next| self.first_of_vertex[low as usize + next] as usize);
-        let [first, end] = ends;
-        let number = first + self.edges[first..end].partition_point(|edge| edge[1] < high);
-        (self.edges.get(number) == Some(&[low, high])).then_some(number)
-    }
-}
-
-/// Where the sides with each lower end begin, if sides are put in the order of these ends.
-///
-/// One side is two corners of a triangle. Behind the last place is the number of sides.
-fn counted_by_lower_end(topology: &Topology, stop: &dyn Fn() -> bool) -> Option<Vec<u32>> {
-    let vertices = topology.vertex_count();
-    let mut starts = vec![0_u32; vertices + 1];
-    for some in topology.triangles().chunks(UNINTERRUPTED) {
-        for [low, _] in some.iter().flat_map(edges_of) {
-            starts[low as usize + 1] += 1;
-        }
-        if stop() {
-            return None;
-        }
-    }
-    for vertex in 0..vertices {
-        starts[vertex + 1] += starts[vertex];
-    }
-    Some(starts)
-}
-
-/// The higher ends of all sides, in the order of the lower ones.
-///
-/// `next` is where the next with each lower end goes.
-fn higher_ends(topology: &Topology, next: &mut [u32], stop: &dyn Fn() -> bool) -> Option<Vec<u32>> {
-    let mut higher = vec![0_u32; next.last().map_or(0, |&count| count as usize)];
-    for some in topology.triangles().chunks(UNINTERRUPTED) {
-        for [low, high] in some.iter().flat_map(edges_of) {
-            let place = &mut next[low as usize];
-            higher[*place as usize] = high;
-            *place += 1;
-        }
-        if stop() {
-            return None;
-        }
-    }
-    Some(higher)
-}
+/// The corners at the ends of each side of a triangle.
+const SIDES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
 /// Some triangles in a row, in tree order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -267,19 +181,13 @@ impl TriangleRun {
     }
 }
 
-/// The edges of a triangle that have two different ends, the smaller first.
-pub(super) fn edges_of(&[a, b, c]: &[u32; 3]) -> impl Iterator<Item = [u32; 2]> {
-    let three = [[a, b], [b, c], [c, a]];
-    let three = three.into_iter().filter(|[a, b]| a != b);
-    three.map(|[a, b]| [a.min(b), a.max(b)])
-}
-
 held!(Elements: callers[], ends[], numbers[], firsts[];
     |elements| held::boxes(&elements.index)
         + elements.tree_vertices.get().map_or(0, |all| size_of_val(&**all)));
 
 #[cfg(test)]
 mod tests {
+    use super::super::edges::edges_of;
     use super::*;
     use std::collections::BTreeSet;
 

@@ -3,6 +3,7 @@
 mod bits;
 mod components;
 mod draft;
+mod edges;
 mod elements;
 mod order;
 mod topology;

@@ -7,9 +7,9 @@ use crate::held::held;
 use crate::ids::{CallerTriangle, CallerVertex};
 
 /// With more triangles than this, numbers of nodes would not fit 32 bits.
-pub(super) const MAX_TRIANGLES: usize = 1 << 28;
+const MAX_TRIANGLES: usize = 1 << 28;
 /// With more vertices than this, no 32-bit number would be left for "none".
-pub(super) const MAX_VERTICES: usize = u32::MAX as usize;
+const MAX_VERTICES: usize = u32::MAX as usize;
 
 /// The corners of a number that no triangle has.
 pub(crate) const EMPTY: [u32; 3] = [u32::MAX; 3];
@@ -23,20 +23,24 @@ pub(crate) struct Topology {
     live: u32,
 }
 
+/// Refuses more triangles or vertices than there can be.
+pub(super) fn check_counts(triangles: usize, vertices: usize) -> Result<(), ErrorKind> {
+    let limits = [
+        ("triangles", triangles, MAX_TRIANGLES),
+        ("vertices", vertices, MAX_VERTICES),
+    ];
+    match limits.into_iter().find(|(_, count, limit)| count > limit) {
+        Some((what, count, limit)) => Err(ErrorKind::TooLarge { what, count, limit }),
+        None => Ok(()),
+    }
+}
+
 /// Refuses what no body can be made of.
 pub(crate) fn validate(triangles: &[[u32; 3]], vertices: usize) -> Result<(), ErrorKind> {
     if triangles.is_empty() {
         return Err(ErrorKind::NoTriangles);
     }
-    let limits = [
-        ("triangles", triangles.len(), MAX_TRIANGLES),
-        ("vertices", vertices, MAX_VERTICES),
-    ];
-    for (what, count, limit) in limits {
-        if count > limit {
-            return Err(ErrorKind::TooLarge { what, count, limit });
-        }
-    }
+    check_counts(triangles.len(), vertices)?;
     for (triangle, corners) in triangles.iter().enumerate() {
         if let Some(&vertex) = corners.iter().find(|&&vertex| vertex as usize >= vertices) {
             return Err(ErrorKind::VertexOutOfRange {
@@ -67,9 +71,8 @@ impl Topology {
     /// Whether a number is that of a triangle.
     #[inline]
     pub(crate) fn is_live(&self, triangle: u32) -> bool {
-        self.triangles
-            .get(triangle as usize)
-            .is_some_and(|&corners| corners != EMPTY)
+        let corners = self.triangles.get(triangle as usize);
+        corners.is_some_and(|&corners| corners != EMPTY)
     }
 
     /// Gives a number other corners, or none; numbers up to it are there from now on.

@@ -46,10 +46,7 @@ impl TrianglesAt {
 
     /// A triangle comes, which was not there.
     pub(crate) fn link(&mut self, triangle: u32, corners: [u32; 3]) {
-        if corners == EMPTY {
-            return;
-        }
-        for (corner, vertex) in (3 * triangle..).zip(corners) {
+        for (corner, vertex) in corners_of(triangle, corners) {
             let first = &mut self.first[vertex as usize];
             self.next[corner as usize] = *first;
             *first = corner;
@@ -58,10 +55,7 @@ impl TrianglesAt {
 
     /// A triangle goes, which was there.
     pub(crate) fn unlink(&mut self, triangle: u32, corners: [u32; 3]) {
-        if corners == EMPTY {
-            return;
-        }
-        for (corner, vertex) in (3 * triangle..).zip(corners) {
+        for (corner, vertex) in corners_of(triangle, corners) {
             let after = self.next[corner as usize];
             let mut at = self.first[vertex as usize];
             if at == corner {
@@ -74,6 +68,12 @@ impl TrianglesAt {
             self.next[at as usize] = after;
         }
     }
+}
+
+/// The corners of a triangle and the vertices there; none of an empty number.
+fn corners_of(triangle: u32, corners: [u32; 3]) -> impl Iterator<Item = (u32, u32)> {
+    let is_live = corners != EMPTY;
+    (3 * triangle..).zip(corners).filter(move |_| is_live)
 }
 
 held!(TrianglesAt: first[], next[]);

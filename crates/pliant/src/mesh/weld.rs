@@ -11,9 +11,8 @@
 
 mod classes;
 
-use super::elements::edges_of;
-use super::topology::EMPTY;
-use classes::{Classes, UNINTERRUPTED};
+use super::edges::SortedEdges;
+use classes::Classes;
 use std::ops::Range;
 
 /// What there is to know of positions and a tolerance.
@@ -34,7 +33,9 @@ pub(crate) fn coinciding(
     near: &Nearness,
     stop: &dyn Fn() -> bool,
 ) -> Option<Vec<[u32; 2]>> {
-    let edges = boundary_edges(triangles, vertices, stop)?;
+    // A boundary edge is that of one triangle.
+    let SortedEdges { edges, .. } =
+        SortedEdges::new(triangles, vertices, |count| count == 1, stop)?;
     let sides: Vec<[u32; 2]> = edges.iter().flat_map(|&[a, b]| [[a, b], [b, a]]).collect();
     let classes = Classes::new(triangles, vertices, &edges, stop)?;
     drop(edges);
@@ -51,59 +52,6 @@ pub(crate) fn coinciding(
         search.within(0)?;
     }
     Some(search.classes.pairs())
-}
-
-/// The edges that exactly one triangle has, the smaller end first, sorted. A degenerate triangle has an edge once, however often it runs
-/// along it.
-fn boundary_edges(
-    triangles: &[[u32; 3]],
-    vertices: usize,
-    stop: &dyn Fn() -> bool,
-) -> Option<Vec<[u32; 2]>> {
-    // By their lower end: how many there are, then where the next one goes.
-    let mut next = vec![0_usize; vertices + 1];
-    let each_edge = |found: &mut dyn FnMut([u32; 2])| {
-        for some in triangles.chunks(UNINTERRUPTED) {
-            for corners in some.iter().filter(|&&corners| corners != EMPTY) {
-                // Edges of a triangle that are one are beside each other, or its first and its last.
-                let [a, b, c] = *corners;
-                let has_two = a == b || b == c || c == a;
-                edges_of(corners)
-                    .take(if has_two { 1 } else { 3 })
-                    .for_each(&mut *found);
-            }
-            if stop() {
-                return None;
-            }
-        }
-        Some(())
-    };
-    each_edge(&mut |[low, _]| next[low as usize + 1] += 1)?;
-    for vertex in 0..vertices {
-        next[vertex + 1] += next[vertex];
-    }
-    let mut higher = vec![0_u32; next[vertices]];
-    each_edge(&mut |[low, high]| {
-        let place = &mut next[low as usize];
-        higher[*place] = high;
-        *place += 1;
-    })?;
-    let mut edges = Vec::new();
-    let mut start = 0;
-    for vertex in 0..vertices {
-        let end = next[vertex];
-        let others = &mut higher[start..end];
-        others.sort_unstable();
-        let alone = others
-            .chunk_by(|a, b| a == b)
-            .filter(|same| same.len() == 1);
-        edges.extend(alone.map(|same| [vertex as u32, same[0]]));
-        start = end;
-        if vertex % UNINTERRUPTED == 0 && stop() {
-            return None;
-        }
-    }
-    Some(edges)
 }
 
 /// So few sides are a leaf.
@@ -332,6 +280,8 @@ impl Search<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::edges::edges_of;
+    use super::super::topology::EMPTY;
     use super::*;
     use pliant_exact::distance::are_points_within;
     use pliant_oracle::{Random, compare_length};

@@ -65,6 +65,8 @@ pub(crate) trait Kind: Sync {
     type Scalar: Coordinate;
     /// What it finds, as the caller numbers things.
     type Hit: Copy + std::fmt::Debug + Send + Sync;
+    /// A hit as a visitor is shown it: itself, or with what is measured on the way.
+    type Shown: Copy + std::fmt::Debug + Send + Sync;
     /// What it finds, in tree order.
     type TreeHit: Copy + Default + std::fmt::Debug + Send + Sync;
     /// What a task keeps for the tests of leaves, from query to query.
@@ -72,32 +74,56 @@ pub(crate) trait Kind: Sync {
 
     fn needs(&self) -> Needs;
 
-    /// Decides what it is shown, and appends what it finds to `hits`, in an order that depends on nothing but that. It counts candidates,
-    /// exact decisions and hits.
-    fn test(
-        &self,
-        leaves: &LeafTest<Self::Scalar>,
-        batch: Batch,
-        buffers: &mut Self::Buffers,
-        hits: &mut Buffer<Self::TreeHit>,
-        statistics: &mut Statistics,
-    );
+    /// Decides what it is shown, and appends what it finds, in an order that depends on nothing but
+    /// that. It counts candidates, exact decisions and hits.
+    fn test(&self, leaves: &LeafTest<Self::Scalar>, batch: Batch, found: &mut FoundBy<Self>);
 
     /// A hit as the caller numbers things.
     fn to_caller(&self, ids: &CallerIds, hit: Self::TreeHit) -> Self::Hit;
 
-    /// Appends hits as the caller numbers things to a list.
-    #[inline]
-    fn to_callers(
+    /// Appends what visitors are shown of hits to a list.
+    fn show(
         &self,
-        _leaves: &LeafTest<Self::Scalar>,
-        ids: &CallerIds,
+        leaves: &LeafTest<Self::Scalar>,
         hits: &[Self::TreeHit],
-        of_caller: &mut Vec<Self::Hit>,
-    ) {
-        of_caller.extend(hits.iter().map(|&hit| self.to_caller(ids, hit)));
+        shown: &mut Vec<Self::Shown>,
+    );
+}
+
+/// Hits of tests of leaves, counters of the work, and the buffers of the tests.
+#[derive(Debug, Default)]
+pub(crate) struct Found<T, B> {
+    /// In tree order.
+    pub(crate) hits: Buffer<T>,
+    pub(crate) statistics: Statistics,
+    pub(crate) buffers: B,
+}
+
+/// Finds of one kind.
+pub(crate) type FoundBy<K> = Found<<K as Kind>::TreeHit, <K as Kind>::Buffers>;
+
+impl<T, B: Held> Held for Found<T, B> {
+    fn held(&self) -> usize {
+        self.hits.held() + self.buffers.held()
     }
 }
+
+/// In an implementation of `Kind`: visitors are shown hits themselves.
+macro_rules! shows_hits {
+    () => {
+        type Shown = Self::Hit;
+
+        fn show(
+            &self,
+            leaves: &LeafTest<Self::Scalar>,
+            hits: &[Self::TreeHit],
+            shown: &mut Vec<Self::Hit>,
+        ) {
+            shown.extend(hits.iter().map(|&hit| self.to_caller(&leaves.ids, hit)));
+        }
+    };
+}
+pub(crate) use shows_hits;
 
 /// Leaves that overlap, some at a time, as a kind is shown them: what its [`Needs::leaves`] say.
 pub(crate) enum Batch<'b> {

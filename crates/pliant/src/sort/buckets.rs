@@ -212,21 +212,15 @@ struct Run<'k, R, T> {
     scratch: &'k mut Scratch<R>,
 }
 
-impl<F> Job<'_, F> {
-    fn put_in_order<'k, R: Rest, T: Send>(
+impl<T: Send, F: Fn(u64) -> T + Copy + Sync> Job<'_, F> {
+    fn put_in_order<'k, R: Rest>(
         self,
         keys: impl Iterator<Item = &'k [u64]>,
         lists: &mut Lists<R>,
         made: &mut [T],
-    ) where
-        F: Fn(u64) -> T + Copy + Sync,
-    {
+    ) {
         let (executor, buckets) = (self.executor, self.division.buckets);
-        let Lists {
-            rests,
-            ends,
-            scratch,
-        } = lists;
+        let (rests, ends, scratch) = (&mut lists.rests, &mut lists.ends, &mut lists.scratch);
         if !lengthen(rests, made.len(), R::default(), executor) {
             return;
         }
@@ -313,29 +307,19 @@ impl<F> Job<'_, F> {
     }
 
     /// Puts the keys of some buckets in order, unless it is interrupted or the parts were.
-    fn put_run_in_order<R: Rest, T>(self, parts: &[Part<R>], run: &mut Run<R, T>)
-    where
-        F: Fn(u64) -> T + Copy,
-    {
+    fn put_run_in_order<R: Rest>(self, parts: &[Part<R>], run: &mut Run<R, T>) {
         if !self.executor.is_interrupted() {
             dispatch!(self.instructions, i => self.put_buckets_in_order(i, parts, run));
         }
     }
 
     #[inline(always)]
-    fn put_buckets_in_order<I: Simd, R: Rest, T>(self, i: I, parts: &[Part<R>], run: &mut Run<R, T>)
-    where
-        F: Fn(u64) -> T + Copy,
-    {
-        let Run {
-            buckets,
-            made,
-            scratch,
-        } = run;
-        let mut rest = &mut **made;
+    fn put_buckets_in_order<I: Simd, R: Rest>(self, i: I, parts: &[Part<R>], run: &mut Run<R, T>) {
+        let scratch = &mut *run.scratch;
+        let mut rest = &mut *run.made;
         let mut looked_at = 0;
         let mut gathered = std::mem::take(&mut scratch.bucket);
-        for number in buckets.clone() {
+        for number in run.buckets.clone() {
             let bucket = if let [part] = parts {
                 &part.rests[part.bucket(number)]
             } else {
@@ -360,16 +344,14 @@ impl<F> Job<'_, F> {
 
     /// Puts the keys of a bucket in order, the least of which is at least `least`.
     #[inline(always)]
-    fn put_bucket_in_order<I: Simd, R: Rest, T>(
+    fn put_bucket_in_order<I: Simd, R: Rest>(
         self,
         i: I,
         bucket: &[R],
         least: u64,
         scratch: &mut Scratch<R>,
         made: &mut [T],
-    ) where
-        F: Fn(u64) -> T + Copy,
-    {
+    ) {
         let rest = self.division.rest;
         if bucket.len() <= ranks::MOST {
             let mut ranks = [0; ranks::MOST];
@@ -392,10 +374,7 @@ impl<F> Job<'_, F> {
     /// Puts the keys of a bucket into buckets.
     #[cold]
     #[inline(never)]
-    fn divide<R: Rest, T>(self, bucket: &[R], least: u64, scratch: &mut Scratch<R>, made: &mut [T])
-    where
-        F: Fn(u64) -> T + Copy,
-    {
+    fn divide<R: Rest>(self, bucket: &[R], least: u64, scratch: &mut Scratch<R>, made: &mut [T]) {
         let (mut rests, mut ends) = scratch.inner.pop().unwrap_or_default();
         let range = (1 << self.division.rest) - 1;
         let division = Division::new(bucket.len(), least, range);
@@ -422,9 +401,7 @@ impl<R: Rest> Scratch<R> {
     #[inline(always)]
     fn in_order(&mut self, rests: &[R], bits: u32, mut show: impl FnMut(u64)) {
         let count = (1_usize << bits).div_ceil(64);
-        let Self {
-            bitmap, summary, ..
-        } = self;
+        let (bitmap, summary) = (&mut self.bitmap, &mut self.summary);
         bitmap.resize(bitmap.len().max(count), 0);
         summary.resize(summary.len().max(count.div_ceil(64)), 0);
         for rest in rests {

@@ -1,16 +1,16 @@
 //! What one thread has found, as keys: of so many bits as its largest numbers need; or as hits, where these are too many.
 
+use super::hit::Hit;
 use super::packing::Packing;
 use crate::held::held;
-use crate::hits::Hit;
 
 /// Keys, or hits in place of them.
 #[derive(Debug)]
 pub(super) struct Keys<T> {
-    packing: Packing,
-    packed: Vec<u64>,
+    pub(super) packing: Packing,
+    pub(super) packed: Vec<u64>,
     /// The least key and the largest.
-    extent: [u64; 2],
+    pub(super) extent: [u64; 2],
     hits: Vec<T>,
 }
 
@@ -39,18 +39,6 @@ impl<T> Keys<T> {
         self.packed.clear();
         self.extent = NOTHING;
         self.hits.clear();
-    }
-
-    pub(super) fn packing(&self) -> Packing {
-        self.packing
-    }
-
-    pub(super) fn keys(&self) -> &[u64] {
-        &self.packed
-    }
-
-    pub(super) fn extent(&self) -> [u64; 2] {
-        self.extent
     }
 }
 

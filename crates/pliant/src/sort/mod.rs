@@ -6,14 +6,15 @@
 //! No two hits are equal.
 
 mod buckets;
+mod hit;
 mod keys;
 mod packing;
 
-use crate::held::{Held, held};
-use crate::hits::{Hit, Numbered};
+use crate::held::{Held, empty, held};
 use crate::kernels::Instructions;
 use crate::threads::{Executor, PerThread};
 use buckets::{Buckets, lengthen};
+pub(crate) use hit::{Hit, Numbered};
 use keys::{Keys, NOTHING, both};
 use packing::Packing;
 
@@ -24,16 +25,6 @@ pub(crate) struct Sorter<T> {
     hits: Vec<T>,
     keys: PerThread<Keys<T>>,
     buckets: Buckets,
-}
-
-impl<T> Default for Sorter<T> {
-    fn default() -> Self {
-        Self {
-            hits: Vec::new(),
-            keys: PerThread::default(),
-            buckets: Buckets::default(),
-        }
-    }
 }
 
 impl<T: Hit> Sorter<T> {
@@ -49,6 +40,11 @@ impl<T: Hit> Sorter<T> {
         self.keys.own().push(hits);
     }
 
+    /// What was found, in order once it is sorted.
+    pub(crate) fn hits(&self) -> &[T] {
+        &self.hits
+    }
+
     /// Sorts all hits. Interrupted, it leaves them in any state.
     pub(crate) fn sort(&mut self, executor: Executor, instructions: Instructions) {
         let Self {
@@ -56,9 +52,9 @@ impl<T: Hit> Sorter<T> {
             keys,
             buckets,
         } = self;
-        let packings = keys.iter_mut().map(|keys| keys.packing());
+        let packings = keys.iter_mut().map(|keys| keys.packing);
         let packing = packings.fold(Packing::default(), Packing::and);
-        let count: usize = keys.iter_mut().map(|keys| keys.keys().len()).sum();
+        let count: usize = keys.iter_mut().map(|keys| keys.packed.len()).sum();
         // Places in buckets are not counted further.
         if !packing.fits() || u32::try_from(count).is_err() {
             hits.clear();
@@ -69,11 +65,11 @@ impl<T: Hit> Sorter<T> {
         let mut extent = NOTHING;
         for keys in keys.iter_mut() {
             keys.pack(packing);
-            extent = both(extent, keys.extent());
+            extent = both(extent, keys.extent);
         }
         let zero = T::of_numbers([0; 4]);
         if lengthen(hits, count, zero, executor) {
-            let all = keys.iter_mut().map(|keys| keys.keys());
+            let all = keys.iter_mut().map(|keys| keys.packed.as_slice());
             let hit = |key| T::of_numbers(packing.numbers(key));
             buckets.put_in_order((executor, instructions), all, extent, hit, hits);
         }
@@ -85,12 +81,7 @@ pub(crate) fn sort_by_numbers<T: Numbered>(hits: &mut [T]) {
     hits.sort_unstable_by_key(T::numbers);
 }
 
-impl<T> Sorter<T> {
-    /// What was found, in order once it is sorted.
-    pub(crate) fn hits(&self) -> &[T] {
-        &self.hits
-    }
-}
+empty!(Sorter<T>: hits, keys, buckets);
 
 held!(Sorter<T>: hits[], buckets; |sorter| sorter.keys.held_by(Held::held));
 

@@ -2,7 +2,7 @@
 //!
 //! Bodies and what is numbered in them are few bits each, so the four numbers of a hit side by side make one key.
 
-use crate::hits::Hit;
+use super::hit::Hit;
 
 /// How the four numbers of a hit make one key: of so many bits for a body, and for what is numbered in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

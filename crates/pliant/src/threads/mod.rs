@@ -73,29 +73,16 @@ impl Threads {
                 .thread_name(|thread| format!("pliant {}", thread + 1))
                 .build()
         });
-        let helpers = |pool| Helpers {
-            pool: Arc::new(pool),
-            count,
-            awake: Some(Arc::default()),
-            process: std::process::id(),
-        };
-        Self {
-            helpers: pool.and_then(Result::ok).map(helpers),
-        }
+        let pool = pool.and_then(Result::ok);
+        let helpers = pool.map(|pool| Helpers::of(Arc::new(pool), count, Some(Arc::default())));
+        Self { helpers }
     }
 
     /// At most `count` threads, the calling one included; the others are of a pool of the caller's.
     pub(crate) fn lent(count: NonZeroUsize, pool: Arc<rayon::ThreadPool>) -> Self {
         let count = (count.get().min(MOST) - 1).min(pool.current_num_threads());
-        let helpers = Helpers {
-            pool,
-            count,
-            awake: None,
-            process: std::process::id(),
-        };
-        Self {
-            helpers: (count > 0).then_some(helpers),
-        }
+        let helpers = (count > 0).then(|| Helpers::of(pool, count, None));
+        Self { helpers }
     }
 
     /// Threads for another world: of the same pool, if that was lent, or else private ones of its own.
@@ -179,6 +166,26 @@ impl Executor<'_> {
         jobs.iter().for_each(done);
     }
 
+    /// Does jobs, and shows `done` each as it was left. They are listed only if there are threads
+    /// for them: a step would allocate that list.
+    pub(crate) fn run_each<J: Send>(
+        &self,
+        jobs: impl Iterator<Item = J>,
+        work: impl Fn(&mut J) + Sync,
+        mut done: impl FnMut(&J),
+    ) {
+        if self.are_many() {
+            let mut jobs: Vec<J> = jobs.collect();
+            self.run(&mut jobs, |_, job| work(job));
+            jobs.iter().for_each(done);
+            return;
+        }
+        for mut job in jobs {
+            self.run(std::slice::from_mut(&mut job), |_, job| work(job));
+            done(&job);
+        }
+    }
+
     /// The same as [`run`](Self::run) for any work: it is compiled for each kind of job, but not for everything that is done with one.
     fn run_any<J: Send>(&self, jobs: &mut [J], work: &(dyn Fn(usize, &mut J) + Sync)) {
         let work: &(dyn Fn(usize, &mut J) + Sync) = &|number, job| {
@@ -203,6 +210,15 @@ pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl Helpers {
+    fn of(pool: Arc<rayon::ThreadPool>, count: usize, awake: Option<Arc<AtomicUsize>>) -> Self {
+        Self {
+            pool,
+            count,
+            awake,
+            process: std::process::id(),
+        }
+    }
+
     fn are_elsewhere(&self) -> bool {
         self.process != std::process::id()
     }

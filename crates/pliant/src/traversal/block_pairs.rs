@@ -85,31 +85,20 @@ impl BlockTests {
         body: OneBody,
         pairs: &[BlockPair],
     ) {
-        let OneBody {
-            boxes,
-            quantized,
-            order,
-            neighbours,
-        } = body;
-        let Self {
-            compared,
-            crowded,
-            candidates: found,
-        } = self;
+        let (found, crowded) = (&mut self.candidates, &mut self.crowded);
         found.clear();
-        let (Some(neighbours), Some(quantized)) = (neighbours, quantized) else {
-            dispatch!(instructions, i => of_one(i, boxes, order, neighbours, pairs, found));
+        let (Some(neighbours), Some(quantized)) = (body.neighbours, body.quantized) else {
+            dispatch!(instructions, i => of_one(i, body, pairs, found));
             return;
         };
-        compared.clear();
+        self.compared.clear();
         crowded.clear();
         dispatch!(instructions, i => {
-            non_adjacent(i, quantized, neighbours, pairs, compared, crowded);
-            overlapping(i, boxes, compared, found);
+            non_adjacent(i, quantized, neighbours, pairs, &mut self.compared, crowded);
+            overlapping(i, body.boxes, &self.compared, found);
         });
         if !crowded.is_empty() {
-            let neighbours = Some(neighbours);
-            dispatch!(instructions, i => of_one(i, boxes, order, neighbours, crowded, found));
+            dispatch!(instructions, i => of_one(i, body, crowded, found));
         }
     }
 
@@ -124,19 +113,12 @@ impl BlockTests {
         run: &mut Range<u32>,
         most: usize,
     ) -> usize {
-        let Self {
-            compared,
-            candidates: found,
-            ..
-        } = self;
+        let (compared, found) = (&mut self.compared, &mut self.candidates);
         compared.clear();
         found.clear();
         let some = NEIGHBOURS_AT_ONCE.min(most);
         dispatch!(instructions, i => {
-            let looked_at = match quantized {
-                Some(quantized) => adjacent(i, quantized, neighbours, run, some, compared),
-                None => all_adjacent(neighbours, run, some, compared),
-            };
+            let looked_at = adjacent(i, quantized, neighbours, run, some, compared);
             overlapping(i, boxes, compared, found);
             looked_at
         })
@@ -170,14 +152,8 @@ fn push_overlapping<I: Simd>(
 
 /// The candidates of pairs of blocks of one body: those that share no vertex.
 #[inline(always)]
-fn of_one<I: Simd>(
-    i: I,
-    Boxes { firsts, boxes }: Boxes,
-    order: &Order,
-    neighbours: Option<&Neighbours>,
-    pairs: &[BlockPair],
-    found: &mut Buffer<Candidate>,
-) {
+fn of_one<I: Simd>(i: I, body: OneBody, pairs: &[BlockPair], found: &mut Buffer<Candidate>) {
+    let Boxes { firsts, boxes } = body.boxes;
     for &[a, b] in pairs {
         let (first_a, first_b) = (firsts.of(a), firsts.of(b));
         let candidate = |bit: u32| [first_a.plus(bit / 8), first_b.plus(bit % 8)];
@@ -187,7 +163,7 @@ fn of_one<I: Simd>(
             // Within one block, each pair of triangles once, and none with itself.
             overlaps &= STRICT_UPPER;
         }
-        if let Some(neighbours) = neighbours
+        if let Some(neighbours) = body.neighbours
             && let Some(compared) = neighbours.compared(i, a, b)
         {
             // Mostly none is left.
@@ -195,17 +171,19 @@ fn of_one<I: Simd>(
                 room.push_bits(overlaps & compared, candidate);
             }
         } else {
-            room.push_bits_if(overlaps, candidate, |[a, b]| !order.share_a_vertex(a, b));
+            let is_kept = |[a, b]: Candidate| !body.order.share_a_vertex(a, b);
+            room.push_bits_if(overlaps, candidate, is_kept);
         }
     }
 }
 
-/// The next of a run of leaves and their neighbours, with the pairs of triangles that share no vertex and are not surely apart;
-/// those that have such pairs. Returns how many pairs of leaves it looked at.
+/// The next of a run of leaves and their neighbours, with the pairs of triangles that share no
+/// vertex and, where there are quantized boxes, are not surely apart; those that have such pairs.
+/// Returns how many pairs of leaves it looked at.
 #[inline(always)]
 fn adjacent<I: Simd>(
     i: I,
-    quantized: &Quantized,
+    quantized: Option<&Quantized>,
     neighbours: &Neighbours,
     run: &mut Range<u32>,
     enough: usize,
@@ -218,35 +196,19 @@ fn adjacent<I: Simd>(
         let (others, masks) = neighbours.of_block(a);
         looked_at += others.len();
         compared.make_room(others.len() + 1);
-        let rows = QuantizedRows::new(i, quantized.of(a));
-        for (&b, &pairs) in others.iter().zip(masks) {
-            let b = BlockId(b);
-            let pairs = pairs & !rows.apart(i, quantized.of(b));
-            let blocks = [a, b];
+        let mut push = |b: u32, pairs: u64| {
+            let blocks = [a, BlockId(b)];
             // Whether any is left cannot be predicted.
             compared.push_if(MaskedPair { blocks, pairs }, pairs != 0);
-        }
-    }
-    looked_at
-}
-
-/// The next of a run of leaves and their neighbours, with all pairs of triangles that share no vertex: where there are no quantized
-/// boxes. Returns how many pairs of leaves it took.
-fn all_adjacent(
-    neighbours: &Neighbours,
-    run: &mut Range<u32>,
-    enough: usize,
-    compared: &mut Buffer<MaskedPair>,
-) -> usize {
-    let mut looked_at = 0;
-    while run.start < run.end && looked_at < enough {
-        let a = BlockId(run.start);
-        run.start += 1;
-        let (others, masks) = neighbours.of_block(a);
-        looked_at += others.len();
-        for (&b, &pairs) in others.iter().zip(masks) {
-            let blocks = [a, BlockId(b)];
-            compared.push(MaskedPair { blocks, pairs });
+        };
+        let all = others.iter().zip(masks);
+        if let Some(quantized) = quantized {
+            let rows = QuantizedRows::new(i, quantized.of(a));
+            for (&b, &pairs) in all {
+                push(b, pairs & !rows.apart(i, quantized.of(BlockId(b))));
+            }
+        } else {
+            all.for_each(|(&b, &pairs)| push(b, pairs));
         }
     }
     looked_at

@@ -315,11 +315,7 @@ fn is_to_be_distributed<S>(
 
 /// Distributes the last of all pairs of nodes to all tasks, in order and in equal parts.
 fn distribute<S>(tasks: &mut dyn Tasks<S>, used: usize, scratch: &mut Scratch) {
-    let Scratch {
-        reserve,
-        distributed,
-        ..
-    } = scratch;
+    let (reserve, distributed) = (&mut scratch.reserve, &mut scratch.distributed);
     for number in 0..used {
         let nodes = &mut tasks.one(number).walk.found.nodes;
         reserve.extend(nodes.as_slice());

@@ -43,48 +43,51 @@ impl LeafTests {
         mut cursor: Cursor,
         most: usize,
     ) -> Cursor {
-        let [a, b] = context.pair.sides();
         let leaf_test = &leaf_test(context);
-        if !context.needs.triangles() {
-            self.test_runs(context, work, leaf_pairs, cursor, most, leaf_test)
-        } else if a.tree.leaves.have_blocks() && b.tree.leaves.have_blocks() {
-            self.test_blocks(context, work, leaf_pairs, cursor, most, leaf_test)
+        let [a, b] = context.pair.sides().map(|side| &side.tree.leaves);
+        let are_triangles = context.needs.triangles();
+        self.runs.clear();
+        if a.have_blocks() && b.have_blocks() {
+            let blocks = &mut self.block_pairs;
+            let is_one_tree = context.pair.is_one_tree();
+            cursor = block_pairs(is_one_tree, [a, b], leaf_pairs, cursor, most, blocks);
+            if are_triangles {
+                self.test_blocks(context, work, leaf_test);
+            } else {
+                self.runs.extend(blocks.iter().map(|[a, b]| [a.0, b.0]));
+            }
         } else {
             let end = leaf_pairs.len().min(cursor.pair + most);
             let leaf_pairs = &leaf_pairs[cursor.pair..end];
-            self.test_triangles(context, work, leaf_pairs, leaf_test);
             cursor.pair = end;
-            cursor
+            if are_triangles {
+                self.test_triangles(context, work, leaf_pairs, leaf_test);
+            } else {
+                let runs = leaf_pairs.iter();
+                let runs = runs.map(|&[of_a, of_b]| [a.run_of_leaf(of_a), b.run_of_leaf(of_b)]);
+                self.runs.extend(runs);
+            }
         }
+        if !are_triangles {
+            work.test(leaf_test, Batch::Runs(&self.runs));
+        }
+        cursor
     }
 
-    /// Tests pairs of leaves block by block.
+    /// Tests pairs of blocks.
     fn test_blocks<S: Coordinate>(
         &mut self,
         context: &Context<S>,
         work: &mut dyn LeafWork<S>,
-        leaf_pairs: &[LeafPair],
-        cursor: Cursor,
-        most: usize,
         leaf_test: &LeafTest<S>,
-    ) -> Cursor {
+    ) {
         let instructions = context.instructions;
         let [a, b] = context.pair.sides();
-        let leaves = [&a.tree.leaves, &b.tree.leaves];
-        let is_one_tree = context.pair.is_one_tree();
-        let cursor = block_pairs(
-            is_one_tree,
-            leaves,
-            leaf_pairs,
-            cursor,
-            most,
-            &mut self.block_pairs,
-        );
         for start in (0..self.block_pairs.len()).step_by(BLOCK_PAIRS_AT_ONCE) {
             let end = self.block_pairs.len().min(start + BLOCK_PAIRS_AT_ONCE);
             let pairs = &self.block_pairs[start..end];
             let boxes = Boxes::of(a.boxed_tree());
-            if is_one_tree {
+            if context.pair.is_one_tree() {
                 let body = OneBody {
                     boxes,
                     quantized: a.boxes.quantized(),
@@ -99,7 +102,6 @@ impl LeafTests {
             }
             self.decide(context, work, leaf_test);
         }
-        cursor
     }
 
     /// Tests pairs of leaves of one triangle: its box is the leaf's, which overlaps.
@@ -127,41 +129,6 @@ impl LeafTests {
             }
             self.decide(context, work, leaf_test);
         }
-    }
-
-    /// Tests pairs of leaves run by run: of the blocks in them, or of their single triangles.
-    fn test_runs<S: Coordinate>(
-        &mut self,
-        context: &Context<S>,
-        work: &mut dyn LeafWork<S>,
-        leaf_pairs: &[LeafPair],
-        mut cursor: Cursor,
-        most: usize,
-        leaf_test: &LeafTest<S>,
-    ) -> Cursor {
-        let [a, b] = context.pair.sides();
-        let leaves = [&a.tree.leaves, &b.tree.leaves];
-        self.runs.clear();
-        if leaves.iter().all(|leaves| leaves.have_blocks()) {
-            cursor = block_pairs(
-                context.pair.is_one_tree(),
-                leaves,
-                leaf_pairs,
-                cursor,
-                most,
-                &mut self.block_pairs,
-            );
-            let runs = self.block_pairs.iter().map(|[a, b]| [a.0, b.0]);
-            self.runs.extend(runs);
-        } else {
-            let end = leaf_pairs.len().min(cursor.pair + most);
-            let pairs = leaf_pairs[cursor.pair..end].iter();
-            let runs = |&[a, b]: &LeafPair| [leaves[0].run_of_leaf(a), leaves[1].run_of_leaf(b)];
-            self.runs.extend(pairs.map(runs));
-            cursor.pair = end;
-        }
-        work.test(leaf_test, Batch::Runs(&self.runs));
-        cursor
     }
 
     /// Tests leaves, each a block, that are neighbours, and each with itself: the next of a run of leaves and their later neighbours,

@@ -9,13 +9,13 @@ pub(crate) type Visitor<'s, H> = &'s mut dyn FnMut(&[H]) -> ControlFlow<usize>;
 /// always does.
 pub(crate) type Collector<'s, H> = &'s (dyn Fn(&[H]) -> ControlFlow<()> + Sync);
 
-/// Where hits go.
-pub(crate) enum Sink<'s, H> {
-    Visitor(Visitor<'s, H>),
+/// Where hits go: as they are to a collector, as they are shown to a visitor.
+pub(crate) enum Sink<'s, H, V> {
+    Visitor(Visitor<'s, V>),
     Collector(Collector<'s, H>),
 }
 
-impl<'s, H> Sink<'s, H> {
+impl<'s, H, V> Sink<'s, H, V> {
     /// The collector, which wants all there is.
     pub(crate) fn collector(&self) -> Option<Collector<'s, H>> {
         match self {

@@ -48,10 +48,8 @@ impl<S: Coordinate> Side<'_, S> {
 
     /// The numbers of edges as the caller has them, for kinds that look at edges; else none.
     fn caller_edges(&self) -> &[u32] {
-        match &self.elements {
-            Some(elements) => elements.edges.caller_edges(),
-            None => &[],
-        }
+        let elements = self.elements.as_ref();
+        elements.map_or(&[], |elements| elements.edges.caller_edges())
     }
 }
 

@@ -53,21 +53,15 @@ impl Walk {
 
     /// Goes on until it asks for boxes that are stale, has found enough, or no pair of nodes is left.
     pub(super) fn go(&mut self, trees: [BoxedTree<'_>; 2], rules: &Rules) {
-        let &Rules {
-            instructions,
-            interrupt,
-            limits,
-            left_out,
-            is_one_tree,
-            notes_leaves,
-        } = rules;
+        let (instructions, limits) = (rules.instructions, rules.limits);
+        let (is_one_tree, left_out) = (rules.is_one_tree, rules.left_out);
         let complete = trees.iter().all(|tree| tree.boxes.are_nodes_complete());
         loop {
             let (batch, found) = (&self.batch, &mut self.found);
             expand(instructions, trees, is_one_tree, batch, left_out, found);
             self.batch.clear();
             for (set, reached) in self.reached.iter_mut().zip(&mut self.found.reached) {
-                if notes_leaves {
+                if rules.notes_leaves {
                     for leaves in reached.as_slice() {
                         set.insert_eight(leaves.first.0, leaves.lanes);
                     }
@@ -78,7 +72,7 @@ impl Walk {
             if stack == 0 || stack >= limits.stack || self.found.leaves.len() >= limits.leaf_pairs {
                 return;
             }
-            if interrupt.is_set() {
+            if rules.interrupt.is_set() {
                 return;
             }
             self.found.nodes.take_last(limits.batch, &mut self.batch);

@@ -55,15 +55,8 @@ impl LanesAtVertices {
     /// Goes on with the same leaves and order; returns whether it is done. Cost of all: linear in triangles and vertices.
     #[inline(never)]
     pub(super) fn advance(&mut self, leaves: &Leaves, order: &Order, budget: &mut Budget) -> bool {
-        let Self {
-            starts,
-            blocks,
-            lanes,
-            stage,
-            next,
-            last,
-        } = self;
-        if *stage == Stage::Counting {
+        let (starts, last, next) = (&mut self.starts, &mut self.last, &mut self.next);
+        if self.stage == Stage::Counting {
             let is_done = for_each_corner(leaves, order, next, budget, |vertex, block, _| {
                 if replace(&mut last[vertex], block) != block {
                     starts[vertex + 1] += 1;
@@ -76,11 +69,12 @@ impl LanesAtVertices {
                 starts[vertex] += starts[vertex - 1];
             }
             let count = starts[starts.len() - 1] as usize;
-            (*blocks, *lanes) = (vec![BlockId(0); count], vec![0; count]);
+            (self.blocks, self.lanes) = (vec![BlockId(0); count], vec![0; count]);
             last.fill(NONE);
-            (*stage, *next) = (Stage::Filling, 0);
+            (self.stage, *next) = (Stage::Filling, 0);
         }
-        if *stage == Stage::Filling {
+        if self.stage == Stage::Filling {
+            let (blocks, lanes) = (&mut self.blocks, &mut self.lanes);
             let is_done = for_each_corner(leaves, order, next, budget, |vertex, block, lane| {
                 let place = &mut starts[vertex];
                 if replace(&mut last[vertex], block) != block {
@@ -94,7 +88,7 @@ impl LanesAtVertices {
             }
             starts.rotate_right(1);
             starts[0] = 0;
-            (*stage, *last) = (Stage::Done, Vec::new());
+            (self.stage, *last) = (Stage::Done, Vec::new());
         }
         true
     }

@@ -130,23 +130,15 @@ impl Leaves {
     /// The triangles of a leaf, and its first block.
     #[inline(always)]
     pub(crate) fn triangles_and_block(&self, leaf: LeafId) -> (Range<usize>, BlockId) {
-        let Leaf {
-            start,
-            end,
-            first_block,
-        } = self.runs[leaf.index()];
-        (start as usize..end as usize, BlockId(first_block))
+        let first_block = self.runs[leaf.index()].first_block;
+        (self.triangles(leaf), BlockId(first_block))
     }
 
     /// The blocks of a leaf, as their numbers.
     #[inline]
     pub(crate) fn blocks(&self, leaf: LeafId) -> Range<u32> {
-        let Leaf {
-            start,
-            end,
-            first_block,
-        } = self.runs[leaf.index()];
-        first_block..first_block + (end - start).div_ceil(BLOCK_LANES as u32)
+        let run = self.runs[leaf.index()];
+        run.first_block..run.first_block + (run.end - run.start).div_ceil(BLOCK_LANES as u32)
     }
 
     /// The first triangle of a block.

@@ -31,7 +31,7 @@ use crate::ids::{NodeId, TreeTriangle, TreeVertex, WideNodeId};
 use crate::mesh::Order;
 use crate::threads::{Budget, Executor};
 pub(crate) use boxes::{
-    BlockBoxes, BoxSet, BoxSource, Grown, LeavesMut, NodeLanes, NodesMut, Quantized, Source, Swept,
+    BlockBoxes, BoxSet, BoxSource, Grown, LeavesMut, NodeLanes, NodesMut, Over, Quantized, Source,
     Version, of_degree, of_source,
 };
 use build::Plan;
@@ -152,10 +152,8 @@ impl Tree {
 
 /// A tree on its way: its nodes are there, the vertices below them come some at a time.
 pub(crate) struct TreeBuilder {
-    wide_nodes: Vec<WideNode>,
-    level_starts: Vec<u32>,
+    tree: Tree,
     vertices: VertexSetsBuilder,
-    leaves: Leaves,
 }
 
 impl TreeBuilder {
@@ -202,12 +200,17 @@ impl TreeBuilder {
         }
         wide_nodes.shrink_to_fit();
         leaves.shrink_to_fit();
-        Self {
+        let tree = Tree {
             wide_nodes,
             level_starts,
-            vertices: VertexSetsBuilder::new(plan, order, first_vertex),
+            vertices: VertexSets::default(),
             leaves,
-        }
+            neighbours: None,
+            degree: plan.degree,
+            depth: plan.parts.last().map_or(0, |deepest| deepest.level),
+        };
+        let vertices = VertexSetsBuilder::new(plan, order, first_vertex);
+        Self { tree, vertices }
     }
 
     /// Goes on with the same plan and order; returns whether it is done.
@@ -217,19 +220,15 @@ impl TreeBuilder {
 
     /// The tree, when it is done.
     pub(crate) fn finish(self, plan: &Plan) -> Tree {
+        let vertices = self.vertices.finish(plan);
         Tree {
-            wide_nodes: self.wide_nodes,
-            level_starts: self.level_starts,
-            vertices: self.vertices.finish(plan),
-            leaves: self.leaves,
-            neighbours: None,
-            degree: plan.degree,
-            depth: plan.parts.last().map_or(0, |deepest| deepest.level),
+            vertices,
+            ..self.tree
         }
     }
 }
 
-held!(TreeBuilder: wide_nodes[], level_starts[], vertices, leaves);
+held!(TreeBuilder: tree, vertices);
 
 /// The structure of a tree, without what hangs on it.
 #[derive(Clone, Copy)]

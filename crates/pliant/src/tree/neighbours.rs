@@ -237,9 +237,7 @@ impl NeighboursBuilder {
         block: u32,
         own: Range<usize>,
     ) {
-        let Self {
-            at_vertices, list, ..
-        } = self;
+        let (at_vertices, list) = (&self.at_vertices, &mut self.list);
         list.clear();
         // First the pairs that share a vertex.
         list.push((block, 0));

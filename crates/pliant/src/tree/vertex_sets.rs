@@ -21,7 +21,7 @@ use crate::threads::Budget;
 const FEW: usize = 24;
 
 /// Indexed by node, counted level by level.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct VertexSets {
     sets: Vec<Set>,
     border: Vec<TreeVertex>,
@@ -93,15 +93,9 @@ impl VertexSetsBuilder {
 
     /// Goes on with the same plan and order; returns whether all nodes have their vertices.
     pub(super) fn advance(&mut self, plan: &Plan, order: &Order, budget: &mut Budget) -> bool {
-        let Self {
-            all: VertexSets { sets, border },
-            start,
-            used_before,
-            earlier,
-            first_vertex,
-            seen_by,
-        } = self;
-        let place = |vertex: u32| match vertex.checked_sub(*first_vertex) {
+        let VertexSets { sets, border } = &mut self.all;
+        let earlier = &self.earlier;
+        let place = |vertex: u32| match vertex.checked_sub(self.first_vertex) {
             Some(own) => earlier.len() + own as usize,
             None => earlier.partition_point(|&it| it < vertex),
         };
@@ -112,14 +106,14 @@ impl VertexSetsBuilder {
             let node = sets.len() as u32;
             let triangles = part.triangles.start as usize..part.triangles.end as usize;
             budget.spend(triangles.len());
-            let mut run =
-                [triangles.start, triangles.end].map(|triangle| used_before[triangle - *start]);
+            let mut run = [triangles.start, triangles.end]
+                .map(|triangle| self.used_before[triangle - self.start]);
             let first = border.len();
             for &vertex in order.all_corners()[triangles].as_flattened() {
                 if vertex.0 >= run[0] {
                     continue;
                 }
-                let seen_by = &mut seen_by[place(vertex.0)];
+                let seen_by = &mut self.seen_by[place(vertex.0)];
                 if *seen_by != node {
                     *seen_by = node;
                     border.push(vertex);
@@ -171,13 +165,9 @@ impl VertexSets {
     /// The vertices below a node: a run and a border, in which one may be more than once.
     #[inline]
     pub(crate) fn run_and_border(&self, node: usize) -> (std::ops::Range<usize>, &[TreeVertex]) {
-        let Set {
-            run: [start, end],
-            border,
-            borders,
-            ..
-        } = self.sets[node];
-        let border = &self.border[border..border + borders as usize];
+        let set = self.sets[node];
+        let [start, end] = set.run;
+        let border = &self.border[set.border..set.border + set.borders as usize];
         (start as usize..end as usize, border)
     }
 
@@ -187,14 +177,11 @@ impl VertexSets {
         &self,
         node: usize,
     ) -> Option<&[[TreeVertex; TWELVE]; N]> {
-        let Set {
-            border, in_twelves, ..
-        } = self.sets[node];
-        if in_twelves {
-            self.border[border..].as_chunks().0.first_chunk()
-        } else {
-            None
-        }
+        let set = self.sets[node];
+        let border = set
+            .in_twelves
+            .then(|| self.border[set.border..].as_chunks().0);
+        border?.first_chunk()
     }
 
     /// The vertices below a node, run first.

@@ -25,45 +25,49 @@ fn level_ahead(update: Update, depth: u32, much: bool) -> u32 {
     }
 }
 
-/// Refits the upper levels, unless they are valid.
-pub(super) fn refit_ahead<S: Coordinate>(
-    refit: &Refit,
-    one: &mut Refitted<S>,
-    partner: Partner,
-    wide_nodes: &mut Vec<WideNodeId>,
-    statistics: &mut Statistics,
-) {
-    let root = WideNodeId(0);
-    // The root is the last box that is made, and the first that any strategy needs.
-    one.boxes.expect(one.source.version());
-    let depth = one.tree.depth;
-    let level = |much| level_ahead(refit.update, depth, much);
-    if one.boxes.is_valid(root) {
-        // In this shape the body met another before, and was refitted in part. All of it is needed now: better at once than on the way.
-        let whole = partner == Partner::Itself && level(true) == depth;
-        if !whole || one.boxes.are_nodes_complete() {
-            return;
+impl Refit<'_> {
+    /// Refits the upper levels, unless they are valid. `wide_nodes` is scratch.
+    pub(crate) fn ahead<S: Coordinate>(
+        &self,
+        one: &mut Refitted<S>,
+        partner: Partner,
+        wide_nodes: &mut Vec<WideNodeId>,
+        statistics: &mut Statistics,
+    ) {
+        let root = WideNodeId(0);
+        // The root is the last box that is made, and the first that any strategy needs.
+        one.boxes.expect(one.source.version());
+        let depth = one.tree.depth;
+        let level = |much| level_ahead(self.update, depth, much);
+        if one.boxes.is_valid(root) {
+            // In this shape the body met another before, and was refitted in part. All of it is
+            // needed now: better at once than on the way.
+            let whole = partner == Partner::Itself && level(true) == depth;
+            if !whole || one.boxes.are_nodes_complete() {
+                return;
+            }
         }
+        let reached = one.boxes.take_reached();
+        let much = partner == Partner::Itself || reached * MUCH >= one.tree.leaves.len();
+        let levels = level(much) + 1;
+        let is_whole = levels > depth && partner == Partner::Itself;
+        let boxes = if is_whole && one.tree.leaves.are_blocks() {
+            let [boxes, triangles] = refit_whole(self, one, wide_nodes);
+            statistics.triangle_boxes += triangles;
+            boxes
+        } else {
+            refit_levels(self, one, root, levels, wide_nodes)
+        };
+        if levels > depth {
+            one.boxes.complete_nodes();
+        }
+        // The root alone, from the vertices, is the beginning of top-down.
+        *(if self.update == Update::TopDown {
+            &mut statistics.boxes_top_down
+        } else {
+            &mut statistics.boxes_bottom_up
+        }) += boxes;
     }
-    let reached = one.boxes.take_reached();
-    let much = partner == Partner::Itself || reached * MUCH >= one.tree.leaves.len();
-    let levels = level(much) + 1;
-    let boxes = if levels > depth && partner == Partner::Itself && one.tree.leaves.are_blocks() {
-        let [boxes, triangles] = refit_whole(refit, one, wide_nodes);
-        statistics.triangle_boxes += triangles;
-        boxes
-    } else {
-        refit_levels(refit, one, root, levels, wide_nodes)
-    };
-    if levels > depth {
-        one.boxes.complete_nodes();
-    }
-    // The root alone, from the vertices, is the beginning of top-down.
-    *(if refit.update == Update::TopDown {
-        &mut statistics.boxes_top_down
-    } else {
-        &mut statistics.boxes_bottom_up
-    }) += boxes;
 }
 
 #[cfg(test)]

@@ -9,7 +9,8 @@ use super::refitted::{Refit, Refitted};
 use crate::ids::{BlockId, LeafId, TreeVertex};
 use crate::kernels::extent::{self, Extent, Four};
 use crate::kernels::{Coordinate, EightBoxes, Simd, dispatch};
-use crate::tree::{BLOCK_LANES, BoxSource, Leaves, LeavesMut, of_source};
+use crate::statistics::Statistics;
+use crate::tree::{BLOCK_LANES, BoxSource, Leaves, LeavesMut, Over, of_source};
 use std::ops::Range;
 
 /// Words of 64 leaves in a job: at most some microseconds of work.
@@ -28,55 +29,52 @@ struct LeafRun<'t> {
     triangles: usize,
 }
 
-/// Makes the boxes of the triangles in leaves that were reached, unless they are valid, and empties the set. Returns how many boxes it
-/// made.
-pub(super) fn refit_leaves<S: Coordinate>(
-    refit: &Refit,
-    one: &mut Refitted<S>,
-    reached: &mut DirtySet,
-) -> u64 {
-    let leaves = &one.tree.leaves;
-    if !leaves.have_blocks() {
-        reached.clear();
-        return 0;
-    }
-    let executor = refit.executor;
-    let whole = LeafRun {
-        words: reached.words(),
-        stamp: one.boxes.stamp(),
-        boxes: one.boxes.leaves_mut(),
-        leaves: 0,
-        triangles: 0,
-    };
-    let is_worth_it = executor.are_many() && reached.count() > SHARED;
-    let work = |job: &mut LeafRun| {
-        let words = job.words.clone();
-        for start in words.clone().step_by(UNINTERRUPTED) {
-            if executor.is_interrupted() {
-                return;
-            }
-            let words = start..words.end.min(start + UNINTERRUPTED);
-            of_source!(one.source, source => dispatch!(refit.instructions, i => {
-                for leaf in reached.of(words).map(LeafId) {
-                    job.refit(i, leaf, leaves, source);
-                }
-            }));
+impl Refit<'_> {
+    /// Makes the boxes of the triangles in leaves that a traversal has reached, unless they are
+    /// valid, and empties the set.
+    pub(crate) fn reached_leaves<S: Coordinate>(
+        &self,
+        one: &mut Refitted<S>,
+        reached: &mut DirtySet,
+        statistics: &mut Statistics,
+    ) {
+        let leaves = &one.tree.leaves;
+        if !leaves.have_blocks() {
+            reached.clear();
+            return;
         }
-    };
-    let (mut made, mut triangles) = (0, 0);
-    executor.run_cut(
-        whole,
-        is_worth_it,
-        |whole| whole.cut(reached, leaves),
-        work,
-        |job| {
+        let executor = self.executor;
+        let whole = LeafRun {
+            words: reached.words(),
+            stamp: one.boxes.stamp(),
+            boxes: one.boxes.leaves_mut(),
+            leaves: 0,
+            triangles: 0,
+        };
+        let is_worth_it = executor.are_many() && reached.count() > SHARED;
+        let work = |job: &mut LeafRun| {
+            let words = job.words.clone();
+            for start in words.clone().step_by(UNINTERRUPTED) {
+                if executor.is_interrupted() {
+                    return;
+                }
+                let words = start..words.end.min(start + UNINTERRUPTED);
+                of_source!(one.source, source => dispatch!(self.instructions, i => {
+                    for leaf in reached.of(words).map(LeafId) {
+                        job.refit(i, leaf, leaves, source);
+                    }
+                }));
+            }
+        };
+        let mut made = 0;
+        let done = |job: &LeafRun| {
             made += job.leaves;
-            triangles += job.triangles;
-        },
-    );
-    reached.clear();
-    one.boxes.count_reached(made);
-    triangles as u64
+            statistics.triangle_boxes += job.triangles as u64;
+        };
+        executor.run_cut(whole, is_worth_it, |it| it.cut(reached, leaves), work, done);
+        reached.clear();
+        one.boxes.count_reached(made);
+    }
 }
 
 impl LeafRun<'_> {
@@ -141,7 +139,7 @@ pub(super) fn refit_block<I: Simd, B: BoxSource>(
     let mut fours = [[extent::nothing(i); 4]; 2];
     for half in 0..2 {
         for lane in 0..4 {
-            fours[half][lane] = source.over_triangle(i, eight[4 * half + lane]);
+            fours[half][lane] = source.over(i, Over::Triangle(eight[4 * half + lane]));
         }
     }
     let [first, later] = fours;

@@ -4,9 +4,11 @@
 //! One unit is for all leaves, a part of their mean length. Leaves that are much longer do not fit and are not told apart from
 //! others; much shorter ones are told apart less often. Either way nothing is missed, for the boxes themselves are asked again.
 
+use super::dirty_set::DirtySet;
 use super::refitted::{Refit, Refitted};
 use crate::ids::{BlockId, LeafId, NodeId};
 use crate::kernels::{Coordinate, EightBoxes, FARTHEST, QuantizedLanes, dispatch, quantize};
+use crate::statistics::Statistics;
 use crate::tree::{BoxSet, Child, Quantized, Tree};
 
 /// Units in the mean of the longest sides of leaves.
@@ -14,8 +16,26 @@ const UNITS: f32 = 32.0;
 /// Leaves in a job.
 const JOB: usize = 128;
 
+impl Refit<'_> {
+    /// Makes the boxes of the triangles in all leaves, and quantizes them where leaves are blocks;
+    /// all nodes are valid. `reached` is scratch.
+    pub(crate) fn all_leaves<S: Coordinate>(
+        &self,
+        one: &mut Refitted<S>,
+        reached: &mut DirtySet,
+        statistics: &mut Statistics,
+    ) {
+        if !one.boxes.are_leaves_complete() {
+            reached.insert_below(one.tree.leaves.len());
+            self.reached_leaves(one, reached, statistics);
+            one.boxes.complete_leaves();
+        }
+        quantize_all(self, one);
+    }
+}
+
 /// Quantizes the boxes of all leaves, unless leaves are not blocks, or they lie too far from zero for it. All other boxes are valid.
-pub(super) fn quantize_all<S: Coordinate>(refit: &Refit, one: &mut Refitted<S>) {
+fn quantize_all<S: Coordinate>(refit: &Refit, one: &mut Refitted<S>) {
     let tree = one.tree;
     if !tree.leaves.are_blocks() || one.boxes.quantized().is_some() {
         return;
@@ -28,24 +48,17 @@ pub(super) fn quantize_all<S: Coordinate>(refit: &Refit, one: &mut Refitted<S>) 
     quantized.units = units;
     let quantized = &mut quantized.blocks;
     quantized.resize_with(blocks.len(), Default::default);
-    let make = |quantized: &mut [QuantizedLanes], blocks: &[EightBoxes]| {
+    let jobs = quantized.chunks_mut(JOB).zip(blocks.chunks(JOB));
+    let make = |(quantized, blocks): &mut (&mut [QuantizedLanes], &[EightBoxes])| {
         dispatch!(refit.instructions, i => {
-            for (quantized, block) in quantized.iter_mut().zip(blocks) {
+            for (quantized, block) in quantized.iter_mut().zip(*blocks) {
                 *quantized = quantize(i, block, units);
             }
         });
     };
-    let parts = quantized.chunks_mut(JOB).zip(blocks.chunks(JOB));
-    if executor.are_many() {
-        let mut jobs: Vec<_> = parts.collect();
-        executor.run(&mut jobs, |_, (quantized, blocks)| make(quantized, blocks));
-    } else {
-        for (quantized, blocks) in parts {
-            if executor.is_interrupted() {
-                return;
-            }
-            make(quantized, blocks);
-        }
+    executor.run_each(jobs, make, |_| {});
+    if executor.is_interrupted() {
+        return;
     }
     set_fits(tree, one.boxes, units);
     one.boxes.complete_quantized();

@@ -9,28 +9,32 @@ use super::refit::refit_from_vertices;
 use super::refitted::{Refit, Refitted};
 use crate::ids::WideNodeId;
 use crate::kernels::Coordinate;
+use crate::statistics::Statistics;
 
-/// Refits wide nodes that were reached and are stale, and with each of them `levels_at_once - 1` levels below; empties the set. The
-/// lists are scratch. Returns how many boxes of nodes it made.
-pub(super) fn refit_reached<S: Coordinate>(
-    refit: &Refit,
-    one: &mut Refitted<S>,
-    reached: &mut DirtySet,
-    [listed, below]: &mut [Vec<WideNodeId>; 2],
-) -> u64 {
-    listed.clear();
-    listed.extend(reached.of(reached.words()).map(WideNodeId));
-    reached.clear();
-    let levels = refit.update.levels_at_once();
-    if levels == 1 {
-        return refit_from_vertices(refit, one, listed);
-    }
-    let mut boxes = 0;
-    for &wide_node in &*listed {
-        // It may have been refitted with one above it.
-        if !one.boxes.is_valid(wide_node) {
-            boxes += refit_levels(refit, one, wide_node, levels, below);
+impl Refit<'_> {
+    /// Refits wide nodes that a traversal has reached, which are stale, and with each of them
+    /// `levels_at_once - 1` levels below; empties the set. The lists are scratch.
+    pub(crate) fn reached<S: Coordinate>(
+        &self,
+        one: &mut Refitted<S>,
+        reached: &mut DirtySet,
+        [listed, below]: &mut [Vec<WideNodeId>; 2],
+        statistics: &mut Statistics,
+    ) {
+        listed.clear();
+        listed.extend(reached.of(reached.words()).map(WideNodeId));
+        reached.clear();
+        let levels = self.update.levels_at_once();
+        let boxes = &mut statistics.boxes_top_down;
+        if levels == 1 {
+            *boxes += refit_from_vertices(self, one, listed);
+            return;
+        }
+        for &wide_node in &*listed {
+            // It may have been refitted with one above it.
+            if !one.boxes.is_valid(wide_node) {
+                *boxes += refit_levels(self, one, wide_node, levels, below);
+            }
         }
     }
-    boxes
 }

@@ -3,11 +3,10 @@
 use super::free_step::FreeStep;
 use super::handle::World;
 use super::scalar::Scalar;
-use crate::close_pairs::CloseTriangles;
 use crate::edit::Edited;
 use crate::error::Error;
 use crate::ids::BodyId;
-use crate::impacts::Impact;
+use crate::queries::{CloseTriangles, Impact};
 use crate::selection::Selection;
 use crate::threads::Question;
 use std::collections::BTreeMap;

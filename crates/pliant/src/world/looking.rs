@@ -1,4 +1,4 @@
-//! What a body is, and what its tree looks like.
+//! What a body is, what its tree looks like, and what the last query did.
 
 use super::handle::World;
 use super::scalar::Scalar;
@@ -6,9 +6,9 @@ use crate::bodies::NodeBox;
 use crate::bodies::TreeShape;
 use crate::error::Error;
 use crate::ids::BodyId;
-use crate::tree::Tree;
+use crate::statistics::Statistics;
 
-/// What a body is, and what its tree looks like.
+/// What a body is, what its tree looks like, and what the last query did.
 impl<S: Scalar> World<S> {
     /// The triangles of a body as they were added and edited, shape (m, 3): three times [`u32::MAX`] for a number that an [`Edit`](crate::Edit) has left
     /// empty.
@@ -17,7 +17,7 @@ impl<S: Scalar> World<S> {
     ///
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn triangles(&self, body: BodyId) -> Result<&[[u32; 3]], Error> {
-        Ok(self.state().body(body)?.topology.triangles())
+        Ok(self.state().body(body)?.mesh().triangles())
     }
 
     /// The edges of a body, shape (k, 2): two vertices each, the smaller first. Every edge once, whatever triangles share it. The number of
@@ -34,7 +34,7 @@ impl<S: Scalar> World<S> {
     ///
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn edges(&self, body: BodyId) -> Result<&[[u32; 2]], Error> {
-        Ok(self.state().body(body)?.edges())
+        Ok(self.state().body(body)?.mesh().edges())
     }
 
     /// The shape that a body has now: the positions that it was given last; NaN for vertices that an [`Edit`](crate::Edit) has left empty.
@@ -61,7 +61,7 @@ impl<S: Scalar> World<S> {
     ///
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn vertex_count(&self, body: BodyId) -> Result<usize, Error> {
-        Ok(self.state().body(body)?.vertex_count())
+        Ok(self.state().body(body)?.mesh().vertex_count())
     }
 
     /// The order in which queries read the vertices of a body, as the caller numbers them: at place i of memory is vertex
@@ -97,7 +97,7 @@ impl<S: Scalar> World<S> {
     /// # Ok::<(), pliant::Error>(())
     /// ```
     pub fn vertex_order(&self, body: BodyId) -> Result<&[u32], Error> {
-        Ok(self.state().body(body)?.vertex_order())
+        Ok(self.state().body(body)?.mesh().vertex_order())
     }
 
     /// The tree of a body in numbers.
@@ -106,12 +106,7 @@ impl<S: Scalar> World<S> {
     ///
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn tree_shape(&self, body: BodyId) -> Result<TreeShape, Error> {
-        let trees = || Ok::<_, Error>(self.state().body(body)?.parts.all().map(|part| &part.tree));
-        Ok(TreeShape {
-            depth: trees()?.map(|tree| tree.depth).max().unwrap_or_default(),
-            nodes: trees()?.map(Tree::node_count).sum(),
-            leaves: trees()?.map(|tree| tree.leaves.len()).sum(),
-        })
+        Ok(self.state().body(body)?.tree_shape())
     }
 
     /// For each triangle of a body, the part it is in when the tree is cut at a level: its node of that level, or its leaf, if
@@ -165,6 +160,11 @@ impl<S: Scalar> World<S> {
     /// ```
     pub fn tree_boxes(&self, body: BodyId, level: u32) -> Result<Vec<NodeBox<S>>, Error> {
         self.verbs.tree_boxes(body, level)
+    }
+
+    /// What the last query did, with what [`Query::prepare`](crate::Query::prepare) did before it.
+    pub fn statistics(&self) -> &Statistics {
+        &self.state().common.statistics
     }
 
     /// How many bytes of memory this world holds: bodies, trees, boxes, and the lists that queries keep for the next ones, with all

@@ -51,7 +51,11 @@ impl<S: Scalar> World<S> {
     #[doc(alias = "cut")]
     #[doc(alias = "tear")]
     pub fn edit(&self, body: BodyId) -> Result<Edit<S>, Error> {
-        Ok(self.state().body(body)?.begin_edit(self.state().number))
+        Ok(self
+            .state()
+            .body(body)?
+            .mesh()
+            .begin_edit(self.state().number))
     }
 
     /// Makes the changes of an edit, and says by number what has changed. Triangles and vertices that it does not name keep their numbers,
@@ -83,7 +87,7 @@ impl<S: Scalar> World<S> {
     ///
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn live_triangles(&self, body: BodyId) -> Result<Vec<bool>, Error> {
-        Ok(self.state().body(body)?.live_triangles())
+        Ok(self.state().body(body)?.mesh().live_triangles())
     }
 
     /// For each number whether it is that of a vertex, shape (n,): false where an edit has left it empty.
@@ -92,7 +96,7 @@ impl<S: Scalar> World<S> {
     ///
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn live_vertices(&self, body: BodyId) -> Result<Vec<bool>, Error> {
-        Ok(self.state().body(body)?.live_vertices())
+        Ok(self.state().body(body)?.mesh().live_vertices())
     }
 
     /// Counts the meshes of a body, and the orders that its trees bring them into: whoever keeps what [`vertex_order`](Self::vertex_order),
@@ -102,7 +106,7 @@ impl<S: Scalar> World<S> {
     ///
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn mesh_revision(&self, body: BodyId) -> Result<u64, Error> {
-        Ok(self.state().body(body)?.revision)
+        Ok(self.state().body(body)?.mesh().order_version())
     }
 
     /// Builds the tree of a body anew, on the shape it has now. Id, filters and loose box stay. Worth it when a shape has
@@ -127,6 +131,6 @@ impl<S: Scalar> World<S> {
     ///
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn tree_quality(&self, body: BodyId) -> Result<f64, Error> {
-        Ok(self.state().body(body)?.decay.quality())
+        Ok(self.state().body(body)?.tree_quality())
     }
 }

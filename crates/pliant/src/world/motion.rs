@@ -1,16 +1,13 @@
-//! Where bodies of a world are going, and what meets on the way.
+//! Where bodies of a world are going, what meets first on the way, and how far all may go.
 
 use super::handle::World;
-use super::query::Query;
 use super::scalar::Scalar;
 use crate::error::Error;
 use crate::ids::BodyId;
-use crate::impacts::EdgeEdgeImpact;
-use crate::impacts::Impact;
-use crate::impacts::VertexTriangleImpact;
+use crate::queries::Impact;
 use crate::selection::Selection;
 
-/// Where bodies are going, what meets on the way, and how far all may go.
+/// Where bodies are going, what meets first on the way, and how far all may go.
 impl<S: Scalar> World<S> {
     /// Begins a motion: says where the vertices of a body will be at the end of the step, shape (n, 3). On the way they move on straight
     /// lines, from the shape that the body has now. Queries for candidates look at the whole way; what intersects is asked of the shape
@@ -37,60 +34,14 @@ impl<S: Scalar> World<S> {
         Ok(end.map(std::borrow::Cow::into_owned))
     }
 
-    /// Asks which vertices and triangles meet on the way to the end of a motion, and when first. See
-    /// [`edge_edge_impacts`](Self::edge_edge_impacts) for the other half: surfaces that are apart first meet where a vertex meets a
-    /// triangle or two edges meet.
-    ///
-    /// Vertices move on straight lines, in real arithmetic, from where they are at time 0 to where [`set_motion`](Self::set_motion) said at
-    /// time 1; a body without a motion stands still. Whether a pair meets is decided exactly: as closed sets, degenerate triangles, motion
-    /// in one plane, touching at the start and at the end included. When, is an interval ([`VertexTriangleImpact`]), as narrow as
-    /// [`Query::width`] says. [`Query::first`] is that with the least exact time, and much faster than all.
-    ///
-    /// Which pairs are looked at is said at [`vertex_triangle_candidates`](Self::vertex_triangle_candidates): no corner of a triangle
-    /// meets it, vertex groups and filters count. They are not listed on the way: memory is for what meets.
-    ///
-    /// ```
-    /// # use pliant::{Selection, World};
-    /// let mut world = World::<f64>::new();
-    /// let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
-    /// let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 2.0], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
-    /// // It falls by 3, and its corner touches the floor after two thirds of the step.
-    /// world.set_motion(leaf, &[[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
-    /// let first = world.vertex_triangle_impacts(Selection::World).first()?.expect("it falls far enough");
-    /// assert_eq!((first.pair.vertex_body, first.pair.vertex), (leaf, 0));
-    /// assert!(first.low < 2.0 / 3.0 && 2.0 / 3.0 <= first.high && first.high - first.low <= 1e-6);
-    /// # Ok::<(), pliant::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Query`].
-    #[doc(alias = "time_of_impact")]
-    #[doc(alias = "continuous_collision_detection")]
-    #[doc(alias = "point_triangle_ccd")]
-    pub fn vertex_triangle_impacts(&mut self, of: Selection) -> Query<'_, VertexTriangleImpact> {
-        Query::new(&mut *self.verbs, of)
-    }
-
-    /// Asks which edges meet on the way to the end of a motion, and when first, as
-    /// [`vertex_triangle_impacts`](Self::vertex_triangle_impacts) asks it of vertices and triangles. Edges have the numbers that
-    /// [`edges`](Self::edges) gives them; two that have an end in common are not looked at.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Query`].
-    #[doc(alias = "edge_edge_ccd")]
-    pub fn edge_edge_impacts(&mut self, of: Selection) -> Query<'_, EdgeEdgeImpact> {
-        Query::new(&mut *self.verbs, of)
-    }
-
     /// The first contact on the way to the end of a motion: that with the least exact time of all
     /// [`vertex_triangle_impacts`](Self::vertex_triangle_impacts) and [`edge_edge_impacts`](Self::edge_edge_impacts); of several at one
-    /// time a vertex and a triangle rather than edges, the first in order. Its interval is at most `width` wide: see [`Query::width`].
+    /// time a vertex and a triangle rather than edges, the first in order. Its interval is at most `width` wide: see
+    /// [`Query::width`](crate::Query::width).
     ///
     /// # Errors
     ///
-    /// Those of [`Query`].
+    /// Those of [`Query`](crate::Query).
     pub fn first_impact(&mut self, of: Selection, width: f64) -> Result<Option<Impact>, Error> {
         self.verbs.first_impact(of, width, None)
     }
@@ -122,7 +73,7 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// Those of [`Query`].
+    /// Those of [`Query`](crate::Query).
     #[doc(alias = "compute_collision_free_stepsize")]
     pub fn collision_free_step(&mut self, of: Selection, min_distance: f64) -> Result<f64, Error> {
         self.verbs.collision_free_step(of, min_distance, None)

@@ -1,9 +1,7 @@
 //! A query on its way: who is asked about, how much is wanted of it, and what may end it early.
 
 use crate::collide::{Ask, Request};
-use crate::contacts::{Contact, ContactKind};
 use crate::error::Error;
-use crate::impacts::{EdgeEdgeImpact, VertexTriangleImpact};
 use crate::selection::Selection;
 use crate::threads::Question;
 use std::fmt;
@@ -26,7 +24,7 @@ use std::ops::ControlFlow;
 #[must_use = "a query does nothing until it is asked for all, for the first, or to visit"]
 pub struct Query<'w, H> {
     asked: &'w mut dyn Ask<H>,
-    request: Request<'w>,
+    pub(super) request: Request<'w>,
 }
 
 impl<'w, H: Copy> Query<'w, H> {
@@ -177,34 +175,6 @@ impl<'w, H: Copy> Query<'w, H> {
     /// See [`Query`].
     pub fn prepare(self) -> Result<(), Error> {
         self.asked.prepare(&self.request)
-    }
-}
-
-impl Query<'_, VertexTriangleImpact> {
-    /// How wide the interval of an impact may be: `high - low` is at most this, 10^-6 if nothing is said. Finite, at least 0; 0 for two
-    /// neighbouring numbers, which are as near as there are.
-    ///
-    /// The interval is the cell of a grid: its ends are the multiples next to the exact time of the largest power of two that is not above
-    /// the width; or numbers next to it, where these are further from each other than that. A width of 10^-6 costs next to nothing.
-    pub fn width(mut self, width: f64) -> Self {
-        self.request.width = width;
-        self
-    }
-}
-
-impl Query<'_, EdgeEdgeImpact> {
-    /// How wide the interval of an impact may be, as of vertices and triangles.
-    pub fn width(mut self, width: f64) -> Self {
-        self.request.width = width;
-        self
-    }
-}
-
-impl Query<'_, Contact> {
-    /// Contacts of this kind alone: the others are no hits.
-    pub fn only(mut self, kind: ContactKind) -> Self {
-        self.request.only = Some(kind);
-        self
     }
 }
 

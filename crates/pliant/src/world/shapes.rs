@@ -98,6 +98,6 @@ impl<S: Scalar> World<S> {
 
     /// The bodies of this world, in the order in which they were added.
     pub fn bodies(&self) -> impl ExactSizeIterator<Item = BodyId> {
-        self.state().common.bodies.ids.iter().copied()
+        self.state().common.bodies.ids().iter().copied()
     }
 }

@@ -1,6 +1,6 @@
 //! What a world holds: bodies, options, and what is kept for each kind of query.
 
-use super::kinds::Kinds;
+use super::kept::Kinds;
 use crate::bodies::{Bodies, Body};
 use crate::collide::{BodyPairs, Common, Distances, FloatingOrigin, Witnesses};
 use crate::error::{Error, ErrorKind};
@@ -113,18 +113,18 @@ impl<S: Coordinate> State<S> {
             interrupt: &Interrupt::default(),
         };
         let mut ended = Ok(());
-        for place in &bodies.places {
-            let body = &mut bodies.list[place.index()];
+        for rank in 0..bodies.len() {
+            let body = bodies.at_mut(bodies.places()[rank]);
             if !body.is_moving() {
                 continue;
             }
             match end(body, *instructions, executor) {
                 Ok(()) if options.mending && body.mend(options) => {
-                    self.witnesses.forget(body.id);
-                    self.distances.last.forget(body.id);
+                    self.witnesses.forget(body.id());
+                    self.distances.last.forget(body.id());
                 }
                 Ok(()) => {}
-                Err(kind) => ended = ended.and(Err((body.id, kind))),
+                Err(kind) => ended = ended.and(Err((body.id(), kind))),
             }
         }
         self.common.note_movement();

@@ -2,19 +2,16 @@
 //!
 //! [`World`](super::World) holds a state behind this trait. What is short it does itself, with the state.
 
-use super::kinds::AskAll;
+use super::kept::AskAll;
 use super::state::{State, about};
 use crate::bodies::{Body, NodeBox, validate};
-use crate::close_pairs::CloseTriangles;
 use crate::collide::{Ask, Common, OfKind, Request, check, in_common, others_by_gap};
 use crate::edit::{Edit, Edited};
 use crate::error::{Error, ErrorKind};
 use crate::held::{self, Held};
-use crate::hits::Pair;
 use crate::ids::BodyId;
-use crate::impacts::Impact;
 use crate::kernels::Coordinate;
-use crate::queries::NearestPair;
+use crate::queries::{CloseTriangles, Impact, NearestPair, Pair};
 use crate::selection::Selection;
 use crate::threads::{Interrupt, Question};
 use std::convert::Infallible;
@@ -115,10 +112,9 @@ impl<S: Coordinate> Verbs<S> for State<S> {
         triangles: &[[u32; 3]],
         positions: &[[S; 3]],
     ) -> Result<(), Error> {
-        let body = self.body(id)?;
-        let is_same =
-            body.vertex_count() == positions.len() && body.topology.triangles() == triangles;
-        if is_same && !body.has_empty_numbers() {
+        let mesh = self.body(id)?.mesh();
+        let is_same = mesh.vertex_count() == positions.len() && mesh.triangles() == triangles;
+        if is_same && !mesh.has_empty_numbers() {
             return self.move_body(id, positions);
         }
         let options = self.common.options;
@@ -302,9 +298,9 @@ impl<S: Coordinate> Verbs<S> for State<S> {
             origin,
             ..
         } = &self.common;
-        for body in &bodies.list {
+        for body in bodies.all() {
             body.validate(options, origin.point)
-                .map_err(|what| format!("{}: {what}", body.id))?;
+                .map_err(|what| format!("{}: {what}", body.id()))?;
         }
         Ok(())
     }

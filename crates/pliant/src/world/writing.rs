@@ -22,7 +22,7 @@ impl<S: Scalar> World<S> {
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     #[doc(hidden)]
     pub fn numbered_edges(&self, body: BodyId) -> Result<Option<&[[u32; 2]]>, Error> {
-        Ok(self.state().body(body)?.numbered_edges())
+        Ok(self.state().body(body)?.mesh().numbered_edges())
     }
 
     /// Numbers the edges of a body as they were when the world was written down. Returns false if

@@ -8,23 +8,19 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folder, or file of the crate's root, and what it may use.
-const LAYERS: [(&str, &[&str]); 27] = [
+const LAYERS: [(&str, &[&str]); 22] = [
     ("held", &[]),
     ("ids", &[]),
     ("options", &[]),
     ("statistics", &[]),
     ("threads", &["held"]),
     ("error", &["ids"]),
-    ("hits", &["ids"]),
-    ("close_pairs", &["hits"]),
-    ("contacts", &["hits"]),
-    ("impacts", &["hits"]),
     ("edit", &["ids"]),
     ("selection", &["ids"]),
     ("geometry", &["held", "ids"]),
     ("kernels", &["held", "ids", "geometry"]),
     ("mesh", &["held", "ids", "error", "edit", "threads"]),
-    ("sort", &["held", "hits", "kernels", "threads"]),
+    ("sort", &["held", "kernels", "threads"]),
     (
         "broad_phase",
         &["held", "ids", "options", "geometry", "kernels", "threads"],
@@ -52,14 +48,11 @@ const LAYERS: [(&str, &[&str]); 27] = [
         &[
             "held",
             "ids",
-            "hits",
-            "close_pairs",
-            "contacts",
-            "impacts",
             "statistics",
             "geometry",
             "kernels",
             "mesh",
+            "sort",
             "threads",
             "tree",
         ],
@@ -105,10 +98,6 @@ const LAYERS: [(&str, &[&str]); 27] = [
             "options",
             "statistics",
             "error",
-            "hits",
-            "close_pairs",
-            "contacts",
-            "impacts",
             "selection",
             "geometry",
             "kernels",
@@ -122,6 +111,7 @@ const LAYERS: [(&str, &[&str]); 27] = [
             "bodies",
         ],
     ),
+    ("all_pairs", &["bodies", "error", "geometry", "mesh"]),
     (
         "world",
         &[
@@ -131,10 +121,6 @@ const LAYERS: [(&str, &[&str]); 27] = [
             "statistics",
             "error",
             "edit",
-            "hits",
-            "close_pairs",
-            "contacts",
-            "impacts",
             "selection",
             "geometry",
             "kernels",
@@ -145,13 +131,9 @@ const LAYERS: [(&str, &[&str]); 27] = [
             "traversal",
             "bodies",
             "collide",
+            "all_pairs",
         ],
     ),
-    (
-        "reference",
-        &["bodies", "contacts", "error", "geometry", "mesh", "world"],
-    ),
-    ("pair_impacts", &["error", "kernels", "threads", "world"]),
     ("lib", &[]),
 ];
 
@@ -159,23 +141,23 @@ const LAYERS: [(&str, &[&str]); 27] = [
 const EXPORTED: [(&str, &str); 32] = [
     ("BodyId", "ids"),
     ("BroadPhase", "options"),
-    ("CloseEdgeEdge", "close_pairs"),
-    ("CloseVertexTriangle", "close_pairs"),
-    ("ClosestFeatures", "close_pairs"),
-    ("Contact", "contacts"),
-    ("ContactKind", "contacts"),
+    ("CloseEdgeEdge", "queries"),
+    ("CloseVertexTriangle", "queries"),
+    ("ClosestFeatures", "queries"),
+    ("Contact", "queries"),
+    ("ContactKind", "queries"),
     ("Degree", "options"),
-    ("EdgeEdge", "hits"),
-    ("EdgeEdgeImpact", "impacts"),
+    ("EdgeEdge", "queries"),
+    ("EdgeEdgeImpact", "queries"),
     ("Edit", "edit"),
     ("Edited", "edit"),
     ("Error", "error"),
     ("ErrorKind", "error"),
-    ("Impact", "impacts"),
+    ("Impact", "queries"),
     ("Instructions", "kernels"),
     ("NodeBox", "bodies"),
     ("Options", "options"),
-    ("Pair", "hits"),
+    ("Pair", "queries"),
     ("Partition", "options"),
     ("Query", "world"),
     ("Scalar", "world"),
@@ -183,12 +165,22 @@ const EXPORTED: [(&str, &str); 32] = [
     ("Statistics", "statistics"),
     ("TreeShape", "bodies"),
     ("Update", "options"),
-    ("VertexTriangle", "hits"),
-    ("VertexTriangleImpact", "impacts"),
+    ("VertexTriangle", "queries"),
+    ("VertexTriangleImpact", "queries"),
     ("World", "world"),
-    ("edge_edge_impacts", "pair_impacts"),
+    ("edge_edge_impacts", "world"),
     ("kernels", "kernels"),
-    ("vertex_triangle_impacts", "pair_impacts"),
+    ("vertex_triangle_impacts", "world"),
+];
+
+/// Structs of `bodies` whose fields others see, and why; the fields of all others are their own.
+const RECORDS: [(&str, &str); 3] = [
+    (
+        "NewShape",
+        "an argument: the mesh makes it, the shape takes it",
+    ),
+    ("NodeBox", "shown to the caller"),
+    ("TreeShape", "shown to the caller"),
 ];
 
 fn source() -> PathBuf {
@@ -296,6 +288,35 @@ fn the_degree_of_trees_is_a_type_in_no_folder_above_them() {
     }
     let below = ["kernels", "tree", "update"].map(str::to_owned);
     assert_eq!(found, BTreeSet::from(below));
+}
+
+#[test]
+fn nobody_sees_the_fields_of_a_body_nor_of_what_it_is_made_of() {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_';
+    let mut seen = BTreeSet::new();
+    for (path, code) in files(&source().join("bodies")) {
+        for (at, word) in code.match_indices("struct ") {
+            let item = &code[at + word.len()..];
+            let open = item.find(['{', '(', ';']).unwrap();
+            let close = if item[open..].starts_with('{') {
+                "\n}"
+            } else {
+                ";"
+            };
+            let end = open + item[open..].find(close).unwrap();
+            let mut words = item[..end].split(|c| !is_part(c));
+            let name = words.next().unwrap();
+            if words.any(|word| word == "pub") {
+                let is_record = RECORDS.iter().any(|&(record, _)| record == name);
+                assert!(is_record, "{}: fields of {name}", path.display());
+                seen.insert(name.to_owned());
+            }
+        }
+    }
+    assert!(
+        RECORDS.iter().all(|&(name, _)| seen.contains(name)),
+        "{seen:?}"
+    );
 }
 
 #[test]

@@ -19,6 +19,7 @@ mod contacts;
 mod distances;
 mod edits;
 mod edits_refused;
+mod every_kind;
 mod figure_2;
 mod first_impact;
 mod flush_to_zero;

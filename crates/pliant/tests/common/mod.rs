@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "each test uses its part")]
 
+pub(crate) mod kinds;
+
 use pliant::{
     BodyId, BroadPhase, Degree, Options, Pair, Partition, Scalar, Selection, Update, World,
 };

@@ -1,16 +1,20 @@
-//! BucketTree: Ganovelli, Dingliana and O'Sullivan 2000, *BucketTree: Improving Collision Detection between Deformable Objects*.
-//! An octree of fixed shape over each body, whose leaves are buckets that triangles are put into anew each step. Connectivity
-//! is not used.
+//! BucketTree: an octree of fixed shape over each body, whose leaves are buckets refilled each
+//! step.
+//!
+//! Ganovelli, Dingliana and O'Sullivan 2000, *BucketTree: Improving Collision Detection between
+//! Deformable Objects*. Connectivity is not used.
 //!
 //! | part | how |
 //! |---|---|
-//! | step | all bodies, all triangles: box of the body, buckets, boxes from the buckets up (`octree`) |
+//! | step | all bodies, all triangles: box of the body, buckets, boxes bottom-up (`octree`) |
 //! | bucket | by the centroid: one a triangle |
 //! | bodies | brute force over their boxes |
-//! | query | of two nodes the one with the longer box is opened, a bucket never; empty subtrees are passed over; depth first |
-//! | two buckets | their triangles are held against the overlap of the boxes of both buckets, then against each other |
+//! | query | depth first; of two nodes the one with the longer box is opened, never a bucket |
+//! | two buckets | their triangles against the overlap of the buckets' boxes, then each other |
+//! | counted boxes | of triangles, buckets and nodes |
+//! | counted tests | of nodes and buckets, and all tests of triangles |
 //!
-//! **Counters.** Boxes: of triangles, buckets and nodes. Box tests: of nodes and buckets, and all those of triangles.
+//! The query skips empty subtrees.
 
 mod octree;
 
@@ -33,12 +37,12 @@ pub struct BucketTree {
     answer: Answer,
 }
 
-/// Memory of a query.
+/// Memory that queries reuse.
 #[derive(Default)]
 struct Scratch {
-    /// Pairs of nodes ahead, whose boxes overlap.
+    /// Pairs of nodes whose boxes overlap, still to be opened.
     ahead: Vec<[u32; 2]>,
-    /// The triangles of a bucket that reach to the other, with their boxes.
+    /// Triangles of a bucket that reach the other, with their boxes.
     near: [Vec<(u32, Aabb)>; 2],
 }
 
@@ -61,7 +65,7 @@ impl BucketTree {
 
     fn query(&mut self, wanted: Wanted) {
         self.answer.begin(wanted);
-        // Breaks when there is enough.
+        // Breaks when there are enough pairs.
         let _ = self.bodies.overlapping_pairs().try_for_each(|pair| {
             Pairing::of(&self.bodies, &self.octrees, pair)
                 .descend(&mut self.scratch, &mut self.answer)
@@ -113,7 +117,7 @@ impl Method for BucketTree {
     }
 }
 
-/// Two octrees, or one and itself.
+/// Two octrees, or one octree twice.
 struct Pairing<'a> {
     bodies: &'a Bodies,
     octrees: [&'a Octree; 2],
@@ -129,7 +133,7 @@ impl<'a> Pairing<'a> {
         }
     }
 
-    /// From the roots to pairs of buckets.
+    /// Visits pairs of buckets, beginning with the roots.
     fn descend(&self, scratch: &mut Scratch, answer: &mut Answer) -> ControlFlow<()> {
         let [a, b] = self.octrees;
         let itself = self.pair[0] == self.pair[1];
@@ -176,7 +180,7 @@ impl<'a> Pairing<'a> {
         ControlFlow::Continue(())
     }
 
-    /// The triangles of two buckets.
+    /// Decides the triangles of two buckets.
     fn test_two(
         &self,
         [i, j]: [u32; 2],
@@ -200,7 +204,7 @@ impl<'a> Pairing<'a> {
         ControlFlow::Continue(())
     }
 
-    /// The triangles of one bucket against each other.
+    /// Decides the triangles of one bucket against each other.
     fn test_one(
         &self,
         bucket: u32,
@@ -222,7 +226,7 @@ impl<'a> Pairing<'a> {
         ControlFlow::Continue(())
     }
 
-    /// The triangles of a bucket whose boxes meet a box.
+    /// Collects the triangles of a bucket whose boxes meet a box.
     #[inline]
     fn gather(
         &self,
@@ -260,7 +264,7 @@ impl<'a> Pairing<'a> {
     }
 }
 
-/// The longest side of a box.
+/// Longest side of a box.
 #[inline]
 fn side(bounds: &Aabb) -> f32 {
     (0..3).fold(0.0, |side: f32, axis| {

@@ -1,32 +1,30 @@
-//! A complete octree of fixed depth over the box that a body has now. Its shape never changes; which triangles are in which
-//! bucket does, and all boxes do.
+//! Complete octree of fixed depth over the present box of a body.
 //!
-//! Nodes are numbered as in a heap: the children of g are 8 g + 1 to 8 g + 8, and the buckets come last, along a Morton curve.
-//! So the bucket of a triangle is found by arithmetic, without a descent. A bucket is a doubly linked list through its
-//! triangles: one that stayed in its bucket since the last step, as most do, costs nothing, and one that moved a few writes.
-//!
-//! A node is empty if no bucket below it has a triangle. Empty nodes have no box that means anything; each node knows which of
-//! its children are not empty.
+//! Its shape never changes; the contents of buckets and all boxes do. Nodes are numbered as in a
+//! heap: the children of g are 8 g + 1 to 8 g + 8. Buckets come last, along a Morton curve, so a
+//! triangle's bucket is found by arithmetic, without a descent. A bucket is a doubly linked list
+//! through its triangles: one that stayed costs nothing, one that moved a few writes. Boxes of
+//! empty nodes mean nothing; each node knows which of its children are not empty.
 
 use crate::methods::aabb::Aabb;
 use crate::methods::bodies::Bodies;
 use crate::methods::triangle_box::triangle_box;
 
-/// Ends a list; no bucket yet.
+/// End of a list, or no bucket yet.
 const NONE: u32 = u32::MAX;
 
 #[derive(Debug)]
 pub(super) struct Octree {
-    /// Cells on a side, as a power of two.
+    /// Binary logarithm of the number of cells on a side.
     depth: u32,
-    /// The first bucket: all nodes before it have children.
+    /// First bucket: all nodes before it have children.
     first_bucket: u32,
     boxes: Vec<Aabb>,
-    /// For each node with children, which of them are not empty, one a bit.
+    /// Bit set of the children that are not empty, for each node with children.
     occupied: Vec<u8>,
-    /// For each bucket, one of its triangles.
+    /// First triangle of each bucket.
     heads: Vec<u32>,
-    /// For each triangle, its bucket and its neighbours there.
+    /// Bucket and neighbours of each triangle.
     places: Vec<Place>,
 }
 
@@ -58,7 +56,8 @@ impl Octree {
         }
     }
 
-    /// The step: every triangle into its bucket, every box anew. How many boxes that were.
+    /// Puts every triangle into its bucket and makes every box anew. Returns the number of boxes
+    /// made.
     pub(super) fn fill(&mut self, bodies: &Bodies, body: usize) -> u64 {
         let grid = Grid::over(&bodies.boxes[body], self.depth);
         self.occupied.fill(0);
@@ -96,7 +95,7 @@ impl Octree {
         made
     }
 
-    /// Takes a triangle out of the bucket it is in, if any, and puts it into another.
+    /// Takes a triangle out of its bucket, if it has one, and puts it into another.
     fn put(&mut self, triangle: u32, bucket: u32) {
         let Place {
             bucket: old,
@@ -134,7 +133,7 @@ impl Octree {
         node >= self.first_bucket
     }
 
-    /// The children of a node that are not empty.
+    /// Children of a node that are not empty.
     #[inline]
     pub(super) fn children(&self, node: u32) -> impl Iterator<Item = u32> + use<> {
         let mut left = self.occupied[node as usize];
@@ -147,7 +146,7 @@ impl Octree {
         })
     }
 
-    /// The triangles of a bucket, in no order.
+    /// Triangles of a bucket, in no order.
     #[inline]
     pub(super) fn triangles(&self, bucket: u32) -> impl Iterator<Item = u32> {
         let head = self.heads[(bucket - self.first_bucket) as usize];
@@ -158,7 +157,7 @@ impl Octree {
     }
 }
 
-/// Tells the parent that a node is not empty; whether that is news.
+/// Marks a node as not empty in its parent. Returns whether it was empty before.
 #[inline]
 fn occupy(occupied: &mut [u8], node: u32) -> bool {
     let bits = &mut occupied[((node - 1) / 8) as usize];
@@ -168,7 +167,7 @@ fn occupy(occupied: &mut [u8], node: u32) -> bool {
     news
 }
 
-/// The cells of the buckets: 2^depth on each side of a box.
+/// Cells of the buckets: 2^depth on each side of a box.
 struct Grid {
     lo: [f32; 3],
     cells_per_length: [f32; 3],
@@ -180,7 +179,7 @@ impl Grid {
         let cells = 1_u32 << depth;
         Self {
             lo: bounds.lo,
-            // A flat body has one cell there; a number that is not one becomes cell 0.
+            // A flat body has one cell on this axis: NaN becomes cell 0.
             cells_per_length: std::array::from_fn(|axis| {
                 cells as f32 / (bounds.hi[axis] - bounds.lo[axis])
             }),
@@ -188,7 +187,8 @@ impl Grid {
         }
     }
 
-    /// The number of the bucket that the centroid is in. Rounding may put it next door; the boxes are right wherever it is.
+    /// Number of the bucket with a triangle's centroid. Rounding may choose its neighbour; boxes
+    /// stay right.
     #[inline]
     #[expect(clippy::cast_sign_loss, reason = "a cell below the first is the first")]
     fn bucket_of(&self, [a, b, c]: [&[f32; 3]; 3]) -> u32 {
@@ -202,7 +202,7 @@ impl Grid {
     }
 }
 
-/// Cells on one side, as their part of a bucket's number: as many as seven levels have.
+/// Bits of a cell's coordinate, spread for the bucket's number; for up to seven levels.
 static SPREAD: [u32; 128] = {
     let mut table = [0; 128];
     let mut cell = 0;
@@ -213,7 +213,7 @@ static SPREAD: [u32; 128] = {
     table
 };
 
-/// Two zeros after each of up to eight bits.
+/// Inserts two zeros after each of up to eight bits.
 const fn spread(bits: u32) -> u32 {
     let bits = (bits | bits << 8) & 0x0000_f00f;
     let bits = (bits | bits << 4) & 0x000c_30c3;
@@ -234,7 +234,8 @@ mod tests {
         }
     }
 
-    /// Every triangle in one bucket, the lists whole, boxes tight, emptiness known.
+    /// Checks that every triangle is in one bucket, lists are whole, boxes tight, and emptiness
+    /// known.
     fn check(octree: &Octree, bodies: &Bodies) {
         let count = bodies.triangles[0].len();
         let mut met = vec![0; count];
@@ -285,7 +286,7 @@ mod tests {
                 moved.push(before.iter().zip(&now).filter(|(a, b)| a != b).count());
                 before = now;
             }
-            // From one step to the next few do, in a jump most.
+            // In a step few triangles change buckets, in a jump most.
             assert!(moved[1] < 1_280 / 2 && moved[2] > moved[1], "{moved:?}");
         }
     }

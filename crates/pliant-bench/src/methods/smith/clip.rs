@@ -1,12 +1,13 @@
-//! Whether a triangle meets a box: thirteen axes that could separate them (Akenine-Möller 2001).
+//! Triangle-box overlap by the separating axis test: thirteen axes (Akenine-Möller 2001).
 //!
-//! In f64 on f32 coordinates, with a thousand times the room that rounding needs: a triangle that meets the box is never
-//! turned away; one that misses it by a hair may not be. The three axes of the box are the test of boxes, made before.
+//! Computed in f64 from f32 coordinates, with a thousand times the room that rounding needs. So a
+//! triangle that meets the box is always kept; one that narrowly misses it may be kept too. The
+//! three axes of the box are left out: the boxes were compared before.
 
 use crate::decision::Triangle;
 use crate::methods::aabb::Aabb;
 
-/// Relative to the size of what is compared; rounding is a few times 2^-53.
+/// Room for rounding, relative to the size of the operands. Rounding is a few times 2^-53.
 const ROOM: f64 = 1.0 / (1_u64 << 42) as f64;
 
 /// Whether a triangle whose box overlaps `region` meets it.
@@ -23,7 +24,7 @@ pub(super) fn meets(corners: &Triangle, region: &Aabb) -> bool {
     let size = |vector: [f64; 3]| vector.into_iter().map(f64::abs).fold(0.0, f64::max);
     let reach = points.into_iter().map(size).fold(size(half), f64::max);
 
-    // Apart on `direction`, which is a vector of edges multiplied with each other, at most `long`.
+    // Whether they are apart on `direction`, a product of edges of at most length `long`.
     let apart = |direction: [f64; 3], long: f64| {
         let along = points.map(|point| dot(direction, point));
         let radius = dot(direction.map(f64::abs), half) + ROOM * long * reach;
@@ -31,7 +32,8 @@ pub(super) fn meets(corners: &Triangle, region: &Aabb) -> bool {
         a.min(b).min(c) > radius || a.max(b).max(c) < -radius
     };
     let normal = cross(edge(0), edge(1));
-    // Before they cancel, the parts of a cross product are at most 8 reach^2; so are those of an edge and an axis, 2 reach.
+    // Before cancellation, the parts of a cross product are at most 8 reach^2. For an edge and an
+    // axis: 2 reach.
     let by_normal = apart(normal, 24.0 * reach * reach);
     let by_edges = || {
         (0..3).any(|i| {
@@ -151,7 +153,7 @@ mod tests {
             hi: [5.0, 3.0, 7.0],
         };
         for _ in 0..10_000 {
-            // Two directions upright on a normal that points away from the box, in whole numbers.
+            // Two directions perpendicular to a normal that points away from the box, in integers.
             let [a, b, c] = std::array::from_fn(|_| 1.0 + random(1_000));
             let (d, e) = ([b, -a, 0.0], [0.0, c, -b]);
             let mut offset = || -> [f32; 3] {

@@ -1,20 +1,28 @@
-//! Smith, Kitamura, Takemura and Kishino 1995, *A Simple and Efficient Method for Accurate Collision Detection among Deformable
-//! Polyhedral Objects in Arbitrary Motion*: nothing is kept from step to step but memory, and nothing is known of a body but
-//! its faces. What the paper calls fast in easy cases and breaking down where the regions of overlap are large.
+//! World face octree of Smith, Kitamura, Takemura and Kishino 1995.
+//!
+//! *A Simple and Efficient Method for Accurate Collision Detection among Deformable Polyhedral
+//! Objects in Arbitrary Motion*. From step to step nothing is kept except memory, and only the
+//! faces of a body are known. The paper calls it fast in easy cases, and slow where large regions
+//! overlap.
 //!
 //! 1. A box around every body; brute force over pairs of bodies.
 //! 2. The overlap of two boxes is a *region* of either body.
-//! 3. A face is kept if its box meets a region of its body; with **clip** on, only if the face itself does (`clip`).
-//! 4. The kept faces go down an octree over the smallest cube around all regions. A cell is divided as long as it holds faces
-//!    of two bodies, down to **depth**; a face lies in every cell that its *box* meets (`octree`).
-//! 5. In the deepest cells, faces of different bodies: first their boxes, then the triangles. A pair that meets in several
-//!    cells is tested in one only, the one with the lower corner of the overlap of the two boxes: the one thing newer than the
-//!    method.
+//! 3. A face is kept if its box meets a region of its body; with **clip** on, if the face itself
+//!    does (`clip`).
+//! 4. The kept faces go down an octree over the smallest cube around all regions. A cell with faces
+//!    of two bodies is divided, down to **depth**. A face lies in every cell that its *box* meets
+//!    (`octree`).
+//! 5. In the deepest cells, faces of different bodies are compared: boxes, then triangles. A pair
+//!    that meets in several cells is tested in one, with the lower corner of the overlap of the two
+//!    boxes. Only this is newer than the method.
 //!
-//! Steps 1 to 3 belong to [`step`](Method::step), 4 and 5 to the query. No body with itself.
-//!
-//! **Counters.** Boxes: those of faces in question, and cells. Box tests: face against region; face against the cell that it is
-//! handed down in, once for all eight children; face against face.
+//! | measure | what counts |
+//! |---|---|
+//! | update | steps 1 to 3, in [`step`](Method::step) |
+//! | query | steps 4 and 5; there is no query of a body with itself |
+//! | boxes | of faces in question, and cells |
+//! | box tests | face against region, face against face |
+//! | box tests | face against the cell in which it is handed down, once for all eight children |
 
 mod clip;
 mod octree;
@@ -28,21 +36,23 @@ use crate::methods::triangle_box::triangle_box;
 use crate::motion::{BodyMesh, Shape};
 use octree::{Face, Octree};
 
-/// The world face octree.
+/// World face octree.
 pub struct Smith {
     clip: bool,
     bodies: Bodies,
-    /// For each body, the overlaps of its box with others.
+    /// Overlaps of a body's box with others, for each body.
     regions: Vec<Vec<Aabb>>,
-    /// The kept faces, body after body.
+    /// Kept faces, body after body.
     faces: Vec<Face>,
     octree: Octree,
     answer: Answer,
 }
 
 impl Smith {
-    /// An octree down to `depth` divisions, with or without the clip. Cells a little larger than a face are best: 5 for two
-    /// spheres of 20,480 triangles, and one more for four times as many.
+    /// An octree down to `depth` divisions, with or without the clip.
+    ///
+    /// Cells a little larger than a face are best. For two spheres of 20,480 triangles the depth is
+    /// 5, and one more for four times as many.
     ///
     /// # Panics
     ///
@@ -102,7 +112,7 @@ impl Smith {
 
     fn query(&mut self, wanted: Wanted) {
         self.answer.begin(wanted);
-        // Breaks when there is enough.
+        // Breaks when there are enough pairs.
         let _ = self
             .octree
             .descend(&self.faces, &self.bodies, &mut self.answer);

@@ -1,13 +1,11 @@
-//! The face octree, which is never there as a whole: cells are divided, and their faces handed down, as the descent comes to
-//! them. The faces of all cells ahead lie in one list, cell after cell, used as a stack.
+//! Face octree, never stored as a whole: cells are divided during the descent.
 //!
-//! **Cells.** A cell is what three pairs of planes leave, the lower one part of it, the upper one not; those at the rim go on
-//! to infinity. So every point lies in one cell, and a box meets a cell just if a comparison with each plane says so: no
-//! rounding, and nothing to prove about cubes. A pair of boxes that overlap is tested in the cell that holds the lower corner
-//! of their overlap. Both boxes hold that corner, so both faces are handed down to it.
-//!
-//! **Order.** Faces stay body after body in every list, so that a cell has faces of two bodies just if the first and the last
-//! are of different ones.
+//! Faces of all pending cells lie in one list, cell after cell, used as a stack. A cell is an
+//! intersection of half-spaces: lower planes belong to it, upper planes do not, and cells at the
+//! rim are unbounded. So every point lies in one cell, and comparing a box with the planes is
+//! exact: nothing is rounded. Two overlapping boxes are tested in the cell with the lower corner of
+//! their overlap; both hold that corner, so both faces get there. Lists keep faces body after body:
+//! a cell has faces of two bodies if and only if the first and the last differ in body.
 
 use crate::methods::aabb::Aabb;
 use crate::methods::answer::Answer;
@@ -23,29 +21,29 @@ pub(super) struct Face {
     pub(super) triangle: u32,
 }
 
-/// Where cells begin, and the memory of a descent.
+/// The root cell, and the memory of a descent.
 pub(super) struct Octree {
     depth: u32,
     root: Cell,
     ahead: Vec<Cell>,
-    /// The faces of the cells ahead, as places in the list of kept faces.
+    /// Faces of the pending cells, as places in the list of kept faces.
     lists: Vec<u32>,
-    /// For each face of the cell being divided, which children get it, one a bit.
+    /// Bit set of the children that get a face, for each face of the cell being divided.
     children_of: Vec<u8>,
 }
 
-/// A cell ahead.
+/// A pending cell.
 #[derive(Clone, Copy, Debug)]
 struct Cell {
-    /// Where its faces begin and end.
+    /// Range of its faces.
     start: usize,
     end: usize,
-    /// How often it can be divided.
+    /// Number of further divisions.
     depth_left: u32,
-    /// Where it is divided, and how far from there its children are: a quarter of its side.
+    /// Point of division, and its distance from the children's: a quarter of the side.
     centre: [f32; 3],
     quarter: f32,
-    /// From these planes on, up to those.
+    /// Lower planes, inclusive, and upper planes, exclusive.
     lo: [f32; 3],
     hi: [f32; 3],
 }
@@ -61,7 +59,7 @@ impl Cell {
         hi: [f32::INFINITY; 3],
     };
 
-    /// The child whose bit `axis` says whether it is the upper one there.
+    /// A child: bit `axis` of its number says whether it is the upper one there.
     fn child(&self, number: usize, start: usize, end: usize) -> Self {
         let mut child = Self {
             start,
@@ -82,10 +80,10 @@ impl Cell {
         child
     }
 
-    /// The children that a box meets, one a bit.
+    /// Bit set of the children that a box meets.
     #[inline]
     fn children_met_by(&self, bounds: &Aabb) -> u8 {
-        // The lower and the upper half on x, y, z: bits of the children there.
+        // Bit sets of the children in the lower and the upper half on x, y, z.
         const HALVES: [[u8; 2]; 3] = [[0x55, 0xaa], [0x33, 0xcc], [0x0f, 0xf0]];
         let on = |axis: usize| {
             let lower = u8::from(bounds.lo[axis] < self.centre[axis]).wrapping_neg();
@@ -117,7 +115,7 @@ impl Octree {
         self.depth
     }
 
-    /// From now on the root cell is the smallest cube around a box with the same centre.
+    /// Makes the root cell the smallest cube around a box, with the same centre.
     pub(super) fn cover(&mut self, all: &Aabb) {
         let side = (0..3).fold(0.0, |side: f32, axis| side.max(all.hi[axis] - all.lo[axis]));
         self.root = Cell {
@@ -146,7 +144,7 @@ impl Octree {
             });
         }
         while let Some(cell) = self.ahead.pop() {
-            // The lists after this one are of cells that are done.
+            // Lists behind this one belong to cells that are done.
             self.lists.truncate(cell.end);
             if cell.depth_left == 0 {
                 let list = &self.lists[cell.start..];
@@ -159,10 +157,11 @@ impl Octree {
         ControlFlow::Continue(())
     }
 
-    /// Puts the children that hold faces of two bodies ahead; how many these are.
+    /// Makes the children that hold faces of two bodies pending. Returns their number.
     fn divide(&mut self, cell: &Cell, faces: &[Face]) -> u64 {
         let mine = cell.start..cell.end;
-        // Children that have a face; that had one when this body began; that have faces of two bodies.
+        // Bit sets of children: with a face, with a face before this body began, with faces of two
+        // bodies.
         let (mut seen, mut seen_before, mut mixed) = (0, 0, 0);
         let mut body = u32::MAX;
         self.children_of.clear();
@@ -181,7 +180,7 @@ impl Octree {
             let start = self.lists.len();
             self.lists.resize(start + mine.len(), 0);
             let (known, own) = self.lists.split_at_mut(start);
-            // Written always and kept if it is the child's: no branch to mispredict.
+            // Written always, and kept if it belongs to the child: no branch to mispredict.
             let mut count = 0;
             for (&face, &children) in known[mine.clone()].iter().zip(&self.children_of) {
                 own[count] = face;
@@ -207,7 +206,7 @@ fn overlaps(a: &Aabb, b: &Aabb) -> bool {
     on(0) & on(1) & on(2)
 }
 
-/// Every pair of faces of different bodies in one cell, if it is the cell to test them in.
+/// Tests every pair of faces of different bodies in a cell, if the pair belongs to this cell.
 fn test_all(
     cell: &Cell,
     list: &[u32],
@@ -278,7 +277,7 @@ mod tests {
         let met = |lo, hi| octree.root.children_met_by(&Aabb { lo, hi });
         assert_eq!(met([-0.5; 3], [0.5; 3]), 0xff);
         assert_eq!(met([-0.5; 3], [-0.1, 0.5, -0.1]), 0b101);
-        // Touching from below is being in the upper one: there the corner of an overlap would be.
+        // Touching from below counts as the upper child: the corner of an overlap would be there.
         assert_eq!(met([-0.5; 3], [0.0, -0.1, -0.1]), 0b011);
         assert_eq!(met([0.0; 3], [0.5; 3]), 0b1000_0000);
     }

@@ -1,9 +1,9 @@
-//! A box as the method keeps it: centre and half extent, in single precision.
+//! Box as centre and half extent in single precision, as the method keeps it.
 //!
-//! From a triangle, and from boxes below, a box is made by rounding: half of it to nearest, so it can miss a corner by a hair.
-//! How wide a hair is said, and made up for, in `relation`.
+//! Making a box from a triangle or from boxes rounds to nearest, so it can miss a corner by a
+//! rounding error. `relation` bounds that error and makes up for it.
 
-/// The points whose distance from `centre` is at most `half`, axis by axis.
+/// Points whose distance from `centre` is at most `half` on every axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(super) struct CentreBox {
@@ -19,7 +19,7 @@ impl CentreBox {
 
     #[inline]
     fn between(lo: [f32; 3], hi: [f32; 3]) -> Self {
-        // Halved first: the sum of the largest numbers is not one.
+        // Halved first: the sum of the largest numbers would overflow.
         let centre = std::array::from_fn(|axis| 0.5 * lo[axis] + 0.5 * hi[axis]);
         Self {
             centre,
@@ -37,7 +37,7 @@ impl CentreBox {
         )
     }
 
-    /// Around at least one box.
+    /// Box around at least one box.
     #[inline]
     pub(super) fn hull<'a>(boxes: impl Iterator<Item = &'a Self>) -> Self {
         let (mut lo, mut hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
@@ -50,20 +50,20 @@ impl CentreBox {
         Self::between(lo, hi)
     }
 
-    /// How far it reaches from its centre: what decides which of two nodes is opened.
+    /// Largest half extent, which decides which of two nodes is opened.
     #[inline]
     pub(super) fn size(&self) -> f32 {
         larger(larger(self.half[0], self.half[1]), self.half[2])
     }
 
-    /// How far it reaches from the origin, on the axis where that is farthest.
+    /// Largest distance from the origin, over all axes.
     pub(super) fn reach(&self) -> f32 {
         (0..3).fold(0.0, |reach, axis| {
             larger(reach, self.centre[axis].abs() + self.half[axis])
         })
     }
 
-    /// Larger on every side.
+    /// The box, larger by `by` on every side.
     #[inline]
     pub(super) fn enlarged(&self, by: f32) -> Self {
         Self {

@@ -1,17 +1,19 @@
-//! Two trees, or one tree against itself, from the roots to pairs of leaves whose boxes overlap.
+//! Traversal of two trees, or of one with itself, from the roots to pairs of leaves whose boxes
+//! overlap.
 //!
-//! **Rule.** Of two nodes the larger is opened, by the largest half extent of their boxes, the first if they are equal; a leaf
-//! cannot be opened. All children of the opened node are tested against the box of the other: two in a binary tree, up to
-//! eight in a wide one. Depth first, on a stack instead of recursion.
+//! Of two nodes the larger is opened, by the largest half extent of their boxes; the first of equal
+//! ones. Leaves are never opened. All children of the opened node are tested against the box of the
+//! other. There are two in a binary tree, up to eight in a wide one. Depth first, on a stack
+//! instead of recursion.
 
 use super::relation::Relation;
 use super::tree::{Child, Tree};
 use std::ops::ControlFlow;
 
-/// Pairs of places ahead; kept from one descent to the next for its memory.
+/// Pending pairs of places; kept between descents for its memory.
 pub(super) type Stack = Vec<[u32; 2]>;
 
-/// Visits pairs of triangles, both in their tree's order; adds up the box tests.
+/// Visits pairs of triangles, in the order of their trees, and adds up the box tests.
 pub(super) fn two_trees<R: Relation>(
     [a, b]: [&Tree; 2],
     relation: &R,
@@ -32,7 +34,8 @@ pub(super) fn two_trees<R: Relation>(
     ControlFlow::Continue(())
 }
 
-/// The same within one tree, each pair of triangles once, in either order. `relation` is that of the tree to itself.
+/// Visits pairs of triangles of one tree, each once, in either order. `relation` is of the tree to
+/// itself.
 pub(super) fn one_tree<R: Relation>(
     tree: &Tree,
     relation: &R,
@@ -50,7 +53,7 @@ pub(super) fn one_tree<R: Relation>(
             }
             continue;
         }
-        // A node against itself: each child against itself, and against those after it.
+        // A node against itself: each child against itself and against later children.
         let children = all[i as usize].children();
         for first in children.clone() {
             stack.push([first as u32; 2]);
@@ -66,7 +69,7 @@ pub(super) fn one_tree<R: Relation>(
     ControlFlow::Continue(())
 }
 
-/// One pair of places whose boxes overlap: two triangles, or pairs below them.
+/// Handles a pair of places whose boxes overlap: two triangles, or pairs below them.
 #[inline]
 fn step<R: Relation>(
     [a, b]: [&[Child]; 2],

@@ -1,21 +1,24 @@
-//! Van den Bergen 1997, *Efficient Collision Detection of Complex Deformable Models using AABB Trees*: every box of every tree
-//! is made anew each step, from the leaves to the root. The method that the paper compares with.
+//! Van den Bergen 1997: AABB trees with a complete refit of every box in each step.
+//!
+//! *Efficient Collision Detection of Complex Deformable Models using AABB Trees*, the method that
+//! the paper compares with. Whatever the frame, triangles are decided on world positions. Boxes are
+//! enlarged by a proven bound, so no pair is lost (`relation`). All is scalar and in single
+//! precision, as it was.
 //!
 //! | part | how |
 //! |---|---|
-//! | trees | one triangle a leaf; boxes as centre and half extent, each node with those of its children (`tree`) |
+//! | trees | one triangle a leaf; a node has the boxes of its children, centre and half extent |
 //! | step | complete refit of all bodies, children before parents |
-//! | bodies | brute force over the world boxes of the root boxes; nothing else is known about a body |
-//! | descent | the larger node is opened; stops at the first pair if one is asked for (`descent`) |
-//! | box test | local frame: six axes, set up once for a pair of bodies; world frame: three (`relation`) |
+//! | bodies | brute force over the world boxes of the root boxes |
+//! | descent | the larger node is opened; stops at the first pair if asked to (`descent`) |
+//! | box test | local frame: six axes, set up once a pair of bodies; world frame: three |
 //!
-//! **Local frame** is the method as published: trees in the frame of the body, oriented in the world. A body without a pose
-//! has its local frame in the world. **World frame** is what is left of it when the application deforms bodies in the world,
-//! as the paper's own method wants it; it is the harder rival. Both are scalar and in single precision, as they were.
-//! **Four and eight children** are the wide version that the paper mentions, with the same step and test.
-//!
-//! Whatever the frame, triangles are decided on world positions; the boxes are enlarged by a proven bound so that no pair is
-//! lost on the way (`relation`).
+//! - **Local frame** is the published method: trees in the frame of the body, oriented in the
+//!   world. A body without a pose has its local frame in the world.
+//! - **World frame** is the method where the application deforms bodies in the world, as the
+//!   paper's own method wants it. It is the harder rival.
+//! - **Four and eight children** are the wide version that the paper mentions, with the same step
+//!   and test.
 
 mod centre_box;
 mod descent;
@@ -33,12 +36,12 @@ use relation::{Aligned, Oriented};
 use std::ops::ControlFlow;
 use tree::Tree;
 
-/// Where the boxes of a body are axis-aligned.
+/// Frame in which the boxes of a body are axis-aligned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frame {
-    /// In the body's own frame: oriented in the world, six axes.
+    /// The body's own frame: boxes are oriented in the world, six axes.
     Local,
-    /// In the world: three axes.
+    /// The world: three axes.
     World,
 }
 
@@ -52,7 +55,8 @@ pub struct VanDenBergen {
 }
 
 impl VanDenBergen {
-    /// The published method is `Frame::Local` and `Degree::Two`.
+    /// Trees in this frame, with this degree and triangle test. `Frame::Local` and `Degree::Two`
+    /// are published.
     pub fn new(frame: Frame, degree: Degree, decision: Decision) -> Self {
         Self {
             frame,
@@ -150,13 +154,13 @@ impl Proposer for VanDenBergen {
 struct Body {
     tree: Tree,
     pose: Pose,
-    /// World positions, in the tree's order: what is decided on.
+    /// World positions in the tree's order, on which triangles are decided.
     world: Vec<[f32; 3]>,
-    /// Positions in the frame of the boxes, in the tree's order; empty where that is the world.
+    /// Positions in the frame of the boxes, in the tree's order; empty if that is the world.
     local: Vec<[f32; 3]>,
-    /// What rounding may cost: see `relation`.
+    /// Possible cost of rounding: see `relation`.
     slack: f64,
-    /// The root's box in the world.
+    /// World box of the root.
     bounds: Aabb,
 }
 
@@ -178,7 +182,7 @@ impl Body {
         own
     }
 
-    /// The new shape, and the complete refit.
+    /// Takes a new shape, and refits all boxes.
     fn take_over(&mut self, shape: &Shape<'_>, frame: Frame) {
         self.tree.take_over(shape.world, &mut self.world);
         match frame {
@@ -202,7 +206,7 @@ impl Body {
         self.tree.corners(triangle, &self.world)
     }
 
-    /// Whether local and world positions belong together: the bound on boxes rests on it.
+    /// Whether local and world positions belong together, which the bound on boxes needs.
     fn is_placed_as_promised(&self) -> bool {
         self.local.iter().zip(&self.world).all(|(local, world)| {
             let placed = self.pose.place(local.map(f64::from));
@@ -211,14 +215,14 @@ impl Body {
     }
 }
 
-/// A body without a pose has its local frame in the world.
+/// Pose and local positions; a body without a pose has its local frame in the world.
 fn local<'a>(shape: &Shape<'a>) -> (Pose, &'a [[f32; 3]]) {
     shape.rigid.map_or((Pose::IDENTITY, shape.world), |rigid| {
         (rigid.pose, rigid.local)
     })
 }
 
-/// The box in the world around a box that is oriented there, and `slack` more.
+/// World box around a box that is oriented there, enlarged by `slack`.
 fn placed(bounds: &CentreBox, pose: &Pose, slack: f64) -> Aabb {
     let centre = pose.place(bounds.centre.map(f64::from));
     let half = pose.rotation.map(|row| {

@@ -1,57 +1,19 @@
-//! Where two bodies are to each other, and whether a box of one can meet a box of the other.
+//! Relation of two bodies' frames, and the test whether boxes of either can meet.
 //!
-//! A box test has two roles: one box is *held* while the children of the other node are tested against it one by one. What
-//! depends on the held box alone is computed once for all of them.
-//!
-//! # The six-axis test
-//!
-//! In world space the boxes of two bodies are oriented. Of the fifteen axes that could separate them, van den Bergen tests the
-//! six face normals ("SAT lite"): a few more pairs pass, none is lost. With R and T the rotation and the whole map from the
-//! frame of `b` to that of `a`, taken once for a pair of bodies, they are apart if on some axis k
-//!
-//! ```text
-//! |T(b.centre) - a.centre|_k  >  a.half_k + (|R| b.half)_k          and the same with a and b exchanged
-//! ```
-//!
-//! If both frames are the world, all that is left is |b.centre - a.centre|_k > a.half_k + b.half_k.
-//!
-//! # The rounding bound: so that nothing is lost
-//!
-//! What intersects is decided on world positions W in f32. The boxes are around local positions L in f32, and everything is
-//! computed with roundings. So the held box is enlarged by a margin, added to its half extents once in either frame. Let
-//! u = 2^-24, r a bound on |L| on every axis, D the levels of the tree, |t| the size of the translation on the axis where it
-//! is largest, and d that of T. Then, all on one axis and in first order:
-//!
-//! * **Positions.** There is a real point p with L = p (1 + u) and W = (R p + t)(1 + u), roundings meant as "by at most", see
-//!   [`Rigid`](crate::motion::Rigid). So the place of L is at most sqrt(3) u (|W| + r) from W in length, where
-//!   |W| <= |t| + sqrt(3) r. If two triangles have a point in common in the world, the points with the same weights in the two
-//!   local triangles are, as one frame sees them, no farther apart than both these errors: u (4.8 r + 1.8 |t|) for each body.
-//! * **Boxes.** Making a box rounds its half extent by u r, and the faces of the boxes it is made from by u r: a box
-//!   misses what is below it by at most 2 D u r, and seen in the other frame by sqrt(3) times that.
-//! * **The test itself.** Entries of R and T are rounded once from f64; a centre takes three products, three sums and a
-//!   difference, the half extents three products and three sums: at most u (22 r + 5 d) with r of both bodies together.
-//! * The rotation matrices are orthonormal only to 1e-14, and f64 rounds: nothing beside u.
-//!
-//! Together u ((27 + 3.5 D) r + 1.8 |t|) for each body and 5 u d for the pair, and a few times 2^-149 where products
-//! underflow. Rounded up:
-//!
-//! ```text
-//! margin = 2u ((16 + 2 D) r + |t|) of a  +  the same of b  +  6u d  +  2^-126
-//! ```
-//!
-//! For two unit spheres of 20,480 triangles near the origin this is 1.5e-5, a two-thousandth of a triangle.
-//!
-//! Where boxes are around the world positions themselves, what is left is 2 D u r for the boxes and, for a difference and two
-//! sums, 3 u r: the margin is 2u (2 + D) r of either body.
+//! A box test has two roles: one box is *held* while the children of the other node are tested
+//! against it. Whatever depends on the held box alone is computed once for all of them.
+//! [`Oriented`] is the test with two frames, [`Aligned`] with one; [`margin`] makes up for
+//! rounding.
 
 use super::centre_box::CentreBox;
 use crate::motion::Pose;
 
-/// 2u.
+/// 2 u: twice the unit roundoff of `f32`.
 const ROUNDING: f64 = f32::EPSILON as f64;
 
-/// The part of the margin that one body brings, known when its tree has been refitted; `pose` if its boxes are around
-/// positions in a frame of its own.
+/// Part of the margin due to one body, known when its tree has been refitted.
+///
+/// `pose` is given if the boxes are around positions in a frame of their own.
 pub(super) fn slack(root: &CentreBox, levels: usize, pose: Option<&Pose>) -> f64 {
     let (radius, levels) = (f64::from(root.reach()), levels as f64);
     ROUNDING
@@ -61,7 +23,50 @@ pub(super) fn slack(root: &CentreBox, levels: usize, pose: Option<&Pose>) -> f64
         }
 }
 
-/// The margin of a pair of bodies from their slacks; `apart` is the translation from one frame to the other.
+/// Margin that enlarges the held box, so that rounding loses no pair; `apart` is the translation
+/// from one frame to the other.
+///
+/// Intersection is decided on world positions W in f32. The boxes are around local positions L in
+/// f32, and everything is computed with roundings. So the held box is enlarged by a margin, added
+/// to its half extents once in either frame.
+///
+/// | symbol | meaning |
+/// |---|---|
+/// | u | 2^-24 |
+/// | r | a bound on \|L\| on every axis |
+/// | D | levels of the tree |
+/// | \|t\| | size of a body's translation, on the axis where it is largest |
+/// | d | size of the translation of T, the map between the frames, on that axis |
+///
+/// All bounds are on one axis and in first order.
+///
+/// - **Positions.** There is a real point p with L = p (1 + u) and W = (R p + t)(1 + u), roundings
+///   meant as "by at most", see [`Rigid`](crate::motion::Rigid). So the place of L is at most
+///   sqrt(3) u (|W| + r) from W in length, where |W| <= |t| + sqrt(3) r. If two triangles have a
+///   common point in the world, take the points with the same weights in the two local triangles.
+///   As one frame sees them, they are no farther apart than both these errors: u (4.8 r + 1.8 |t|)
+///   for each body.
+/// - **Boxes.** Making a box rounds its half extent by u r, and the faces of the boxes it is made
+///   from by u r. A box misses what is below it by at most 2 D u r, and seen in the other frame by
+///   sqrt(3) times that.
+/// - **The test itself.** Entries of R and T are rounded once from f64. A centre takes three
+///   products, three sums and a difference, the half extents three products and three sums.
+///   Together at most u (22 r + 5 d), with r of both bodies together.
+/// - **Double precision.** The rotation matrices are orthonormal only to 1e-14, and f64 rounds:
+///   nothing beside u.
+///
+/// Together u ((27 + 3.5 D) r + 1.8 |t|) for each body and 5 u d for the pair. Where products
+/// underflow, add a few times 2^-149. Rounded up:
+///
+/// ```text
+/// margin = 2u ((16 + 2 D) r + |t|) of a  +  the same of b  +  6u d  +  2^-126
+/// ```
+///
+/// For two unit spheres of 20,480 triangles near the origin this is 1.5e-5, a two-thousandth of a
+/// triangle.
+///
+/// Where boxes are around the world positions themselves, two errors remain. Boxes cost 2 D u r; a
+/// difference and two sums cost 3 u r. The margin is then 2u (2 + D) r of either body.
 fn margin(slack: [f64; 2], apart: [f64; 3]) -> f32 {
     let margin = slack[0] + slack[1] + 3.0 * ROUNDING * largest(apart);
     (margin + f64::from(f32::MIN_POSITIVE)) as f32
@@ -71,7 +76,7 @@ fn largest(vector: [f64; 3]) -> f64 {
     vector.into_iter().map(f64::abs).fold(0.0, f64::max)
 }
 
-/// How boxes of a body `a` and a body `b` are tested.
+/// Box test between a body `a` and a body `b`.
 pub(super) trait Relation {
     /// A box prepared for several tests against boxes of the other body.
     type Held<'a>
@@ -88,7 +93,10 @@ pub(super) trait Relation {
     fn meets(held: &Self::Held<'_>, other: &CentreBox) -> bool;
 }
 
-/// Both frames are the same: three axes.
+/// Test of two bodies with a common frame: three axes.
+///
+/// If both frames are the world, boxes are apart if |b.centre - a.centre|_k > a.half_k + b.half_k
+/// on some axis k.
 pub(super) struct Aligned {
     margin: f32,
 }
@@ -120,7 +128,18 @@ impl Relation for Aligned {
     }
 }
 
-/// Two frames: six axes.
+/// Test of two bodies with different frames: six axes.
+///
+/// In world space the boxes of two bodies are oriented. Of the fifteen axes that could separate
+/// them, van den Bergen tests the six face normals ("SAT lite"). A few more pairs pass, none is
+/// lost. R is the rotation and T the whole map from the frame of `b` to the frame of `a`, computed
+/// once for a pair. Boxes are apart if on some axis k
+///
+/// ```text
+/// |T(b.centre) - a.centre|_k  >  a.half_k + (|R| b.half)_k
+/// ```
+///
+/// or if the same holds with a and b exchanged.
 pub(super) struct Oriented {
     to_a: Change,
     to_b: Change,
@@ -151,10 +170,10 @@ impl Oriented {
 
 /// A held box in both frames.
 pub(super) struct HeldOriented<'a> {
-    /// As the other frame sees it: the box there around it.
+    /// Box around it in the other frame.
     seen: CentreBox,
     own: CentreBox,
-    /// From the other frame to its own.
+    /// Map from the other frame to its own.
     back: &'a Change,
 }
 
@@ -177,7 +196,7 @@ impl Relation for Oriented {
     }
 }
 
-/// On three axes of one frame.
+/// Whether two boxes overlap on three axes of one frame.
 #[inline]
 fn overlap(a: &CentreBox, b: &CentreBox) -> bool {
     let on = |axis: usize| (a.centre[axis] - b.centre[axis]).abs() <= a.half[axis] + b.half[axis];
@@ -185,18 +204,19 @@ fn overlap(a: &CentreBox, b: &CentreBox) -> bool {
     on(0) & on(1) & on(2)
 }
 
-/// From one frame to another.
+/// Map from one frame to another.
 struct Change {
     rotation: [[f32; 3]; 3],
-    /// The same without signs: what half extents are multiplied by.
+    /// Absolute values of the rotation, by which half extents are multiplied.
     absolute: [[f32; 3]; 3],
     translation: [f32; 3],
 }
 
 impl Change {
-    /// The change, and its translation before it is rounded.
+    /// The map, and its translation before rounding.
     fn between(from: &Pose, to: &Pose) -> (Self, [f64; 3]) {
-        // The inverse of a rotation is its transpose: the axes of `to` are the columns of its matrix.
+        // The inverse of a rotation is its transpose: the axes of `to` are the columns of its
+        // matrix.
         let axis_of_to = |axis: usize| to.rotation.map(|row| row[axis]);
         let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let rotation: [[f32; 3]; 3] = std::array::from_fn(|i| {
@@ -212,7 +232,7 @@ impl Change {
         (change, translation)
     }
 
-    /// The box in the new frame around a box of the old one.
+    /// Box in the new frame around a box of the old one.
     #[inline]
     fn of(&self, bounds: &CentreBox) -> CentreBox {
         let times = |row: &[f32; 3], x: &[f32; 3]| row[0] * x[0] + row[1] * x[1] + row[2] * x[2];
@@ -238,7 +258,7 @@ mod tests {
         }
     }
 
-    /// Turned by an eighth about z: its corners point along x and y, 1.414 far.
+    /// A pose turned by an eighth about z: corners of a cube point along x and y, 1.414 far.
     fn turned(translation: [f64; 3]) -> Pose {
         let s = 0.5_f64.sqrt();
         Pose {
@@ -260,10 +280,10 @@ mod tests {
     #[test]
     fn boxes_are_apart_on_an_axis_of_either() {
         let still = Pose::IDENTITY;
-        // On x, an axis of the one that is not turned: 1 + 1.414.
+        // On x, an axis of the box that is not turned: 1 + 1.414.
         assert!(meet(&still, &turned([2.41, 0.0, 0.0])));
         assert!(!meet(&still, &turned([2.42, 0.0, 0.0])));
-        // Along the diagonal, an axis of the other one: 1.414 + 1, and on x only 1.7.
+        // Along the diagonal, an axis of the turned box: 1.414 + 1, but on x only 1.7.
         assert!(meet(&still, &turned([1.70, 1.70, 0.0])));
         assert!(!meet(&still, &turned([1.71, 1.71, 0.0])));
     }

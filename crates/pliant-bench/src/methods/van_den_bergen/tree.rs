@@ -1,18 +1,10 @@
-//! The tree: built once, refitted as a whole every step.
+//! Tree of boxes in one array, built once and refitted as a whole every step.
 //!
-//! One array. A node *is* the run of its children, each of which holds its own box and where its own children are; so both
-//! boxes of a binary node lie in one cache line, as the method has it, and a wide node is only a longer run. The root's box
-//! comes first, as a run of one. Parents come before their children.
-//!
-//! **Refit.** All leaves, then the other boxes from the end to the beginning: those below are always ready. Leaves apart from
-//! the rest because nobody predicts which comes next; that makes a refit a third faster and changes nothing else.
-//!
-//! **Build.** A set is cut across the longest side of its box, at the centre of the box; a triangle goes by the centre of its
-//! own box. If that leaves a side empty, the order is cut in the middle. The 8-ary tree is the binary tree with three levels
-//! made one: the same cuts, and nodes that are full but near the leaves.
-//!
-//! **Order.** Triangles are kept as the leaves follow each other, and vertices as the triangles first use them, so that refit
-//! and descent read memory that lies together.
+//! A node *is* the run of its children, each of which holds its own box and the place of its own
+//! children. So both boxes of a binary node lie in one cache line, as in the published method; a
+//! wide node is a longer run. The root's box comes first, as a run of one, and parents come before
+//! their children. Triangles are kept in the order of the leaves, and vertices as triangles first
+//! use them, so that refit and descent read adjacent memory.
 
 use super::centre_box::CentreBox;
 use std::ops::Range;
@@ -22,9 +14,9 @@ use std::ops::Range;
 #[repr(C, align(32))]
 pub(super) struct Child {
     pub(super) bounds: CentreBox,
-    /// Where its children begin, or, in a leaf, which triangle it is.
+    /// First of its children or, in a leaf, the triangle.
     first: u32,
-    /// How many children it has; a leaf has none.
+    /// Number of its children; 0 in a leaf.
     count: u32,
 }
 
@@ -35,13 +27,13 @@ impl Child {
         count: 0,
     };
 
-    /// The triangle, in the tree's order, if this is a leaf.
+    /// Triangle in the tree's order, if this is a leaf.
     #[inline]
     pub(super) fn triangle(&self) -> Option<u32> {
         (self.count == 0).then_some(self.first)
     }
 
-    /// The places of its children.
+    /// Places of its children.
     #[inline]
     pub(super) fn children(&self) -> Range<usize> {
         let first = self.first as usize;
@@ -53,22 +45,27 @@ impl Child {
 #[derive(Debug)]
 pub(super) struct Tree {
     children: Vec<Child>,
-    /// For each triangle, the place of its leaf.
+    /// Place of each triangle's leaf.
     leaves: Vec<u32>,
-    /// The places of all others, last first.
+    /// Places of all other children, last first.
     inner: Vec<u32>,
-    /// Boxes on the longest way down.
+    /// Number of boxes on the longest path down.
     levels: usize,
-    /// Corners in the tree's order of triangles and of vertices.
+    /// Corners, in the tree's order of triangles and of vertices.
     corners: Vec<[u32; 3]>,
-    /// For each triangle, its number in the body.
+    /// Number in the body of each triangle.
     triangles: Vec<u32>,
-    /// For each vertex that a triangle uses, its number in the body.
+    /// Number in the body of each vertex that a triangle uses.
     vertices: Vec<u32>,
 }
 
 impl Tree {
-    /// A tree of nodes with up to 2^`halvings` children. There must be a triangle.
+    /// Builds a tree of nodes with up to 2^`halvings` children; there must be a triangle.
+    ///
+    /// A set is cut across the longest side of its box, at the centre of the box. A triangle goes
+    /// by the centre of its own box. If that leaves a side empty, the order is cut in the middle.
+    /// The 8-ary tree is the binary tree with three levels made one: the same cuts, and nodes that
+    /// are full except near the leaves.
     pub(super) fn build(triangles: &[[u32; 3]], positions: &[[f32; 3]], halvings: u32) -> Self {
         assert!(!triangles.is_empty(), "a body without triangles");
         let boxes: Vec<CentreBox> = triangles
@@ -80,7 +77,7 @@ impl Tree {
         let mut leaves = vec![0; order.len()];
         let mut levels = 0;
         let mut parts = Vec::new();
-        // The place of a child, the triangles below it, and boxes on the way.
+        // Place of a child, triangles below it, and number of boxes on the way.
         let mut ahead = vec![(0_usize, 0..order.len(), 1_usize)];
         while let Some((place, set, level)) = ahead.pop() {
             levels = levels.max(level);
@@ -136,7 +133,11 @@ impl Tree {
         own.extend(self.vertices.iter().map(|&v| positions[v as usize]));
     }
 
-    /// Makes every box anew, from positions in the tree's order.
+    /// Refits every box, from positions in the tree's order.
+    ///
+    /// All leaves come first, then the other boxes from the end to the beginning: children are
+    /// always ready. Leaves are apart from the rest, because no branch predictor knows which comes
+    /// next. That makes a refit a third faster and changes nothing else.
     pub(super) fn refit(&mut self, positions: &[[f32; 3]]) {
         for (triangle, &place) in (0..).zip(&self.leaves) {
             let bounds = CentreBox::of_triangle(self.corners(triangle, positions));
@@ -149,42 +150,43 @@ impl Tree {
         }
     }
 
-    /// Three corners of a triangle, both in the tree's order.
+    /// Corner positions of a triangle, both in the tree's order.
     #[inline]
     pub(super) fn corners(&self, triangle: u32, positions: &[[f32; 3]]) -> [[f32; 3]; 3] {
         self.corners[triangle as usize].map(|vertex| positions[vertex as usize])
     }
 
-    /// Whether two triangles have a vertex in common.
+    /// Whether two triangles share a vertex.
     #[inline]
     pub(super) fn share_a_vertex(&self, a: u32, b: u32) -> bool {
         crate::methods::bodies::share_a_vertex(self.corners[a as usize], self.corners[b as usize])
     }
 
-    /// The body's number of a triangle.
+    /// Number in the body of a triangle.
     #[inline]
     pub(super) fn number(&self, triangle: u32) -> u32 {
         self.triangles[triangle as usize]
     }
 
-    /// Every child, and the root before them.
+    /// Every child, with the root before them.
     #[inline]
     pub(super) fn all(&self) -> &[Child] {
         &self.children
     }
 
-    /// The box around everything.
+    /// Box around everything.
     pub(super) fn root(&self) -> &CentreBox {
         &self.children[0].bounds
     }
 
-    /// How many boxes are made on the way from a corner to the root's box: what rounding errors add up over.
+    /// Number of boxes made on the way from a corner to the root's box, over which rounding errors
+    /// add up.
     pub(super) fn levels(&self) -> usize {
         self.levels
     }
 }
 
-/// Each part that holds more than one triangle becomes two.
+/// Cuts each part that holds more than one triangle into two.
 fn halve_all(parts: &mut Vec<Range<usize>>, order: &mut [u32], boxes: &[CentreBox]) {
     let mut halves = Vec::with_capacity(2 * parts.len());
     for part in parts.drain(..) {
@@ -198,7 +200,7 @@ fn halve_all(parts: &mut Vec<Range<usize>>, order: &mut [u32], boxes: &[CentreBo
     *parts = halves;
 }
 
-/// Cuts a set of at least two, keeping the order on either side; how many come first.
+/// Cuts a set of at least two, keeping the order on either side. Returns how many come first.
 fn halve(set: &mut [u32], boxes: &[CentreBox]) -> usize {
     let hull = CentreBox::hull(set.iter().map(|&triangle| &boxes[triangle as usize]));
     let axis = (1..3).fold(0, |longest, axis| {
@@ -230,7 +232,8 @@ mod tests {
         (scene.triangles(1).to_vec(), positions)
     }
 
-    /// Children after their parents, every triangle once, every box around its triangles but for rounding.
+    /// Checks that children come after parents, every triangle once, and that boxes hold their
+    /// triangles except for rounding.
     fn check(tree: &Tree, own: &[[f32; 3]], degree: usize) {
         let mut met = vec![0; tree.triangles.len()];
         let mut parents = vec![0; tree.children.len()];
@@ -253,7 +256,7 @@ mod tests {
             deepest = deepest.max(above.len());
             let child = &tree.children[place];
             if let Some(triangle) = child.triangle() {
-                // What `relation` says that a box may miss: 2 D u r.
+                // The bound of `relation` on what a box may miss: 2 D u r.
                 let reach = f64::from(tree.root().reach());
                 let room = tree.levels() as f64 * f64::from(f32::EPSILON) * reach;
                 for corner in tree.corners(triangle, own) {

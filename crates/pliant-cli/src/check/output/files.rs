@@ -1,13 +1,15 @@
-//! The table's column of files: where each frame is a file of its own, people look for the file, not for the number.
+//! Column of file names in the table, for sequences of one file per frame.
+//!
+//! There people look for the file, not for the frame number.
 
 use pliant_check::Check;
 use pliant_io::{Body, shown};
 use std::path::PathBuf;
 
-/// Longer names are not lined up.
+/// Widest column in characters. Longer names are not aligned.
 const WIDEST: usize = 40;
 
-/// The files of one source, without the folder that all of them are in; the body's line says that.
+/// File names of one source, without their common folder, which the body's line names.
 pub(super) struct Files {
     source: usize,
     folder: PathBuf,
@@ -16,7 +18,7 @@ pub(super) struct Files {
 }
 
 impl Files {
-    /// Of the first source with a file for each frame, if there is one.
+    /// Takes the first source with a file for each frame, if there is one.
     pub(super) fn of(check: &Check) -> Option<Self> {
         let sources = check.sources();
         let mut in_files = (0..sources.len()).filter(|&source| is_in_files(&sources[source]));
@@ -42,17 +44,17 @@ impl Files {
         Some(files)
     }
 
-    /// What stands above the files.
+    /// Heading of the column.
     pub(super) fn header(&self) -> String {
         self.cell(&self.header)
     }
 
-    /// The file of a frame.
+    /// Name of a frame's file.
     pub(super) fn frame(&self, check: &Check, frame: usize) -> String {
         self.cell(&self.name(check, frame))
     }
 
-    /// Where no file is.
+    /// Empty cell.
     pub(super) fn blank(&self) -> String {
         self.cell("")
     }

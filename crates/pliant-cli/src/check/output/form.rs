@@ -1,20 +1,20 @@
-//! What every format does.
+//! The interface of all output formats.
 
 use super::tally::Tally;
 use pliant_check::{Check, Found, Interval};
 use std::io::{self, Write};
 
-/// How answers are written.
+/// An output format, which writes the answers of a check.
 pub(super) trait Form {
-    /// What is known before the first frame.
+    /// Writes everything that is known before the first frame.
     fn head(&mut self, out: &mut dyn Write, check: &Check) -> io::Result<()>;
-    /// One frame.
+    /// Writes one frame.
     fn frame(&mut self, out: &mut dyn Write, check: &Check, found: &Found) -> io::Result<()>;
-    /// What meets on the way from the frame to the next; of forms that are refused where this is asked, nothing.
+    /// Writes contacts on the way from the frame to the next; nothing in formats that refuse them.
     fn interval(&mut self, _: &mut dyn Write, _: &Check, _: &Interval) -> io::Result<()> {
         Ok(())
     }
-    /// The end, of a check that was completed or of one that could not be.
+    /// Writes the end of a check that was completed, or that stopped with an error.
     fn end(
         &mut self,
         out: &mut dyn Write,

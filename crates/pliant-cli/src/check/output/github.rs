@@ -1,8 +1,9 @@
-//! Annotations for GitHub Actions: the runner reads `::error file=...::message` from standard output.
+//! Annotations for GitHub Actions: lines `::error file=...::message` on standard output.
 //!
-//! One for each of the places with the most pairs, on the file of the frame in which it has them; then a summary. Where places are not
-//! found, with `--first` or `--count`, one for each of the first frames that intersect. The runner shows ten errors of a step, so no
-//! more are printed.
+//! Each place gets one, on the file of the frame in which it has the most pairs; a summary follows.
+//! With `--first` or `--count` no places are found, and the first frames that intersect get one
+//! each. The runner shows ten errors of a step, so no more are printed: the places with the most
+//! pairs.
 
 use super::form::Form;
 use super::places;
@@ -15,7 +16,7 @@ use pliant_check::{Check, Found, Row};
 use pliant_io::{shown, shown_within};
 use std::io::{self, Write};
 
-/// So many errors of one step are shown.
+/// Most errors of one step that the runner shows.
 const MOST_ANNOTATIONS: usize = 10;
 
 pub(super) struct Github {
@@ -82,7 +83,7 @@ impl Form for Github {
         error: Option<&anyhow::Error>,
     ) -> io::Result<()> {
         let (count, lives) = check.places();
-        // What stopped the check is one of those that are shown.
+        // The error that stopped the check is one of those shown.
         let room = MOST_ANNOTATIONS - usize::from(error.is_some());
         for life in lives.iter().take(room) {
             let pair = life.worst.first_pair;
@@ -134,7 +135,7 @@ fn first_pair(check: &Check, [body_a, a, body_b, b]: Row) -> String {
     format!("the first: triangle {a} of {one} and triangle {b} of {other}")
 }
 
-/// That the check could not begin, or go on.
+/// Annotation of a check that could not begin or continue.
 pub(super) fn failure(error: &anyhow::Error) -> String {
     format!(
         "::error title=pliant::{}\n",
@@ -142,22 +143,23 @@ pub(super) fn failure(error: &anyhow::Error) -> String {
     )
 }
 
-/// The file of the frame of the source with the first triangle, or the only one that it has.
+/// File of the first triangle in a frame, or the only file of its source.
 fn file_of(check: &Check, frame: usize, [body, ..]: Row) -> Option<String> {
     let source = &check.sources()[check.source_of(body)?];
     let file = source.frame_file(frame).or_else(|| source.frame_file(0))?;
-    // Whole: the runner looks for the file.
+    // Not shortened: the runner looks for the file.
     Some(shown_within(file, usize::MAX))
 }
 
-/// What a message may hold: `%` begins an escape, and the end of a line ends it. Messages are lines already; if one were not, the rest
-/// of it could be a command.
+/// Escapes a message: `%` begins an escape, and a line break ends the message.
+///
+/// Messages have no line breaks already. If one had, the rest could be a command.
 fn data(text: &str) -> String {
     let text = text.replace('%', "%25");
     text.replace('\r', "%0D").replace('\n', "%0A")
 }
 
-/// What a property may hold: colons and commas end it.
+/// Escapes a property, which colons and commas end.
 fn property(text: &str) -> String {
     data(text).replace(':', "%3A").replace(',', "%2C")
 }

@@ -1,63 +1,35 @@
-//! One JSON object.
+//! Output of a check as one JSON object.
 //!
 //! ```json
-//! {"format":1,"bodies":[{"name":"a.ply","box":[[0.0,0.0,0.0],[1.0,1.0,1.0]],"vertices":8,"triangles":12}],
-//!  "frames":[{"frame":0,"count":1,"kinds":{"crossing":1,"overlapping":0,"touching":0},"pairs":[[0,3,0,9]]}]}
+//! {
+//!   "format": 1,
+//!   "bodies": [
+//!     {"name": "a.ply", "box": [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]], "vertices": 8, "triangles": 12}
+//!   ],
+//!   "frames": [
+//!     {
+//!       "frame": 0,
+//!       "count": 1,
+//!       "kinds": {"crossing": 1, "overlapping": 0, "touching": 0},
+//!       "pairs": [[0, 3, 0, 9]]
+//!     }
+//!   ]
+//! }
 //! ```
 //!
-//! All numbers count from 0; a pair is body, triangle, body, triangle, the smaller (body, triangle) first, sorted. `box` of a body has
-//! its smallest and its largest coordinates in the first frame that is checked. `faces` of a
-//! body (triangle to polygon) stands where its polygons were made into fans, `welded` where vertices were welded away. With
-//! `--count` there are no `pairs`; with `--first`, `count` is 0 or 1 and `"complete": false` says that the list was not meant
-//! to be complete. If a frame cannot be checked, the object ends with `"error"`.
+//! All numbers count from 0. A pair is body, triangle, body, triangle: the smaller (body, triangle)
+//! first, and pairs are sorted. If a frame cannot be checked, the object ends with `error`.
 //!
-//! With `--split` a body is a piece or a group of a source: `"split": "components"` or `"groups"` says so, `"triangle_numbers":
-//! "source"` that triangles of pairs are numbered as in the source, and `sources` has what bodies have otherwise: files, or the bodies
-//! of glTF files. A body then has the number of its `source`, and its `first_triangle`; its `vertices` and `triangles` are those of the
-//! piece. So it is, but for `split`, where arguments name groups of an OBJ file.
-//!
-//! `groups` (numbers of bodies by name) and `ignore` repeat what was asked. With `--baseline`, which is repeated too, a frame has
-//! `left_out`: how many pairs were, because they intersect in that frame, or in the file; not where `--first` stopped at a new pair.
-//! Where the mesh of a body is another one than in the frame before, the frame has `changed`: for each such body its number as `body`,
-//! and what `bodies` says of the others; triangles are numbered as in that mesh until it changes again.
-//!
-//! `places` of a frame joins its pairs: those of one place hang together through neighbouring triangles. Most pairs first, each with its
-//! `number`, the same from frame to frame while the place lives, how many pairs (`count`), the smallest and largest coordinates of its
-//! triangles (`box`), its `first_pair`, and its `bodies`: the number of each, how many triangles of it and the lowest. Behind the frames
-//! `places` has them all: the first and the last of its `frames`, its `most_pairs` and the frame `most_in`; then the rest is what it is
-//! in that frame. Of more than a thousand those with the most pairs are there, and `places_left_out` says how many are not. With
-//! `--count` and `--first` there are none.
-//!
-//! With `--within`, which is repeated, pairs are those of triangles of different bodies that are so close, and a frame has `distance`: that
-//! of the nearest of its pairs, or `null` where it has none. With `--first` the nearest is the one pair.
-//!
-//! With `--swept`, which is repeated, the frames have between them what meets on the way from each to the next: all numbers count from 0, and
-//! vertices are those of the file.
-//!
-//! ```json
-//! {"frame":0,"until":1,"count":1,"at_start":0,"first":{"time":0.5,"kind":"vertex_triangle","pair":[0,7,1,3]},
-//!  "vertex_triangle":[[0,7,1,3,0.49999904632568359,0.5]],"edge_edge":[]}
-//! ```
-//!
-//! `until` is the frame that follows. `vertex_triangle` has body, vertex, body, triangle, `edge_edge` body, vertex, vertex, body, vertex, vertex, the
-//! smaller first in an edge and of the two, sorted; behind them two times from 0, in the frame, to 1, in the next: up to the first they are
-//! apart, at the second they have met. They are those that are apart in the frame, `count` is how many, and `first` (or `null`) the one of
-//! them that meets first, `time` the second of its times; `at_start` is how many others meet in the frame already. With `--count` there are
-//! no lists, with `--first` no more in them than the first, and `"complete": false`. Where the mesh of a body is another one in the next
-//! frame nothing is looked for: `count`, `at_start` and `first` are `null`, and `changed` has the numbers of these bodies.
-//!
-//! `kinds` of a frame that has pairs, all of which were asked for, says how many are of each kind: of `crossing` pairs the triangles go through
-//! each other, and would after every small enough move; `overlapping` ones lie in one plane with an area in common; the others are
-//! `touching`, along a cut for example. With `--first` and `--within` it is not said.
-//!
-//! ```json
-//! {"frame":0,"count":3,"kinds":{"crossing":2,"overlapping":0,"touching":1},"pairs":[[0,3,0,9],[0,4,0,9],[0,5,0,9]]}
-//! ```
-//!
-//! With `--crossing`, which is repeated, `only_touching` of a frame says how many pairs are left out because their places only touch.
-//!
-//! `degenerate` says how many pairs have a triangle without area, where there are any: of those counted, or with
-//! `"skip_degenerate": true` of those that were left out for it.
+//! | member | meaning |
+//! |---|---|
+//! | `bodies` | each body: [`Entry`], or with `split` [`PieceEntry`] |
+//! | `sources` | files, or bodies of glTF files, where bodies are pieces or groups: [`Entry`] |
+//! | `split`, `ignore`, `baseline`, `within` | what was asked, if it was |
+//! | `crossing`, `swept`, `skip_degenerate` | what was asked, if it was |
+//! | `groups` | numbers of bodies by name of the group, if it was asked |
+//! | `frames` | [`FrameEntry`] each; with `swept` an [`IntervalEntry`] between two |
+//! | `places` | places over all frames: [`LifeEntry`]; absent with `--count` and `--first` |
+//! | `places_left_out` | number of places not in the list, which has the thousand largest |
 
 use super::form::Form;
 use super::tally::Tally;
@@ -84,6 +56,7 @@ pub(super) struct Json {
     lists_places: bool,
 }
 
+/// A body, or the source of bodies.
 #[derive(Serialize)]
 struct Entry<'a> {
     name: &'a str,
@@ -91,6 +64,9 @@ struct Entry<'a> {
     mesh: MeshEntry<'a>,
 }
 
+/// A body whose mesh is not that of the frame before.
+///
+/// From here on its triangles are numbered as in this mesh.
 #[derive(Serialize)]
 struct ChangedEntry<'a> {
     body: u32,
@@ -98,20 +74,24 @@ struct ChangedEntry<'a> {
     mesh: MeshEntry<'a>,
 }
 
+/// Size of a source's mesh in the present frame.
 #[derive(Serialize)]
 struct MeshEntry<'a> {
+    /// Smallest and largest coordinates in the first frame that is checked.
     #[serde(rename = "box", skip_serializing_if = "Option::is_none")]
     around: Option<[[f64; 3]; 2]>,
     vertices: usize,
     triangles: usize,
+    /// Polygon of each triangle, where polygons were made into fans.
     #[serde(skip_serializing_if = "Option::is_none")]
     faces: Option<&'a [u32]>,
+    /// Number of vertices that were welded away.
     #[serde(skip_serializing_if = "is_zero")]
     welded: usize,
 }
 
 impl<'a> MeshEntry<'a> {
-    /// The mesh that a source has now.
+    /// Size of the present mesh, without its box.
     fn of(source: &'a Source) -> Self {
         Self {
             around: None,
@@ -123,59 +103,113 @@ impl<'a> MeshEntry<'a> {
     }
 }
 
+/// A body that is a piece or a group of a source.
+///
+/// With `--split`, and where arguments name groups of an OBJ file. Then `"triangle_numbers":
+/// "source"` says that triangles of pairs are numbered as in the source.
 #[derive(Serialize)]
 struct PieceEntry<'a> {
     name: &'a str,
+    /// Smallest and largest coordinates in the first frame that is checked.
     #[serde(rename = "box")]
     around: [[f64; 3]; 2],
+    /// Number of vertices of the piece.
     vertices: usize,
+    /// Number of triangles of the piece.
     triangles: usize,
+    /// Number of its source.
     source: usize,
+    /// The lowest of its triangles.
     first_triangle: usize,
 }
 
+/// A frame and its pairs.
 #[derive(Serialize)]
 struct FrameEntry<'a> {
     frame: usize,
+    /// Bodies with a new mesh.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     changed: Vec<ChangedEntry<'a>>,
+    /// Number of pairs; with `--first` 0 or 1.
     count: usize,
+    /// Number of pairs of each kind: `crossing`, `overlapping`, `touching`.
+    ///
+    /// Triangles of `crossing` pairs go through each other, and would after every small enough
+    /// move. Pairs that lie in one plane with an area in common are `overlapping`. All others are
+    /// `touching`, along a cut for example. Absent without pairs, with `--first` and with
+    /// `--within`.
     #[serde(skip_serializing_if = "Option::is_none")]
     kinds: Option<serde_json::Value>,
+    /// `false` with `--first`: the list was not meant to be complete.
     #[serde(skip_serializing_if = "Option::is_none")]
     complete: Option<bool>,
-    /// `null` where nothing is as close as that; not there where no distance was asked for.
+    /// `null` where no pair is that close; absent where no distance was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     distance: Option<serde_json::Value>,
+    /// Number of pairs left out because they intersect in the frame or the file of `--baseline`.
+    /// Absent where `--first` stopped at a new pair.
     #[serde(skip_serializing_if = "Option::is_none")]
     left_out: Option<usize>,
+    /// With `--crossing`, number of pairs left out because their places only touch.
     #[serde(skip_serializing_if = "Option::is_none")]
     only_touching: Option<usize>,
+    /// Number of pairs with a triangle without area: pairs in `count`, or with `"skip_degenerate":
+    /// true` pairs left out.
     #[serde(skip_serializing_if = "is_zero")]
     degenerate: usize,
+    /// Absent with `--count`. With `--within` only triangles of different bodies; with `--first`
+    /// the nearest pair alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pairs: Option<&'a [[u32; 4]]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     places: Option<Vec<PlaceEntry>>,
 }
 
+/// Contacts on the way from a frame to the next, with `--swept`.
+///
+/// ```json
+/// {
+///   "frame": 0,
+///   "until": 1,
+///   "count": 1,
+///   "at_start": 0,
+///   "first": {"time": 0.5, "kind": "vertex_triangle", "pair": [0, 7, 1, 3]},
+///   "vertex_triangle": [[0, 7, 1, 3, 0.49999904632568359, 0.5]],
+///   "edge_edge": []
+/// }
+/// ```
+///
+/// Vertices are numbered as in the file. In an edge, and of two edges, the smaller stands first;
+/// lists are sorted. A contact ends in two times from 0, in the frame, to 1, in the next. At the
+/// first time the elements are apart, at the second they have met. Where a mesh changes, nothing is
+/// searched: `count`, `at_start` and `first` are `null`.
 #[derive(Serialize)]
 struct IntervalEntry<'a> {
     frame: usize,
     until: usize,
+    /// Bodies whose mesh is another one in the next frame.
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     changed: &'a [u32],
+    /// Number of contacts between elements that are apart in the frame.
     count: Option<usize>,
+    /// `false` with `--first`.
     #[serde(skip_serializing_if = "Option::is_none")]
     complete: Option<bool>,
+    /// Number of other contacts, which are there in the frame already.
     at_start: Option<usize>,
+    /// The contact that comes first, or `null`.
     first: Option<FirstEntry>,
+    /// Body, vertex, body, triangle and two times. Absent with `--count`; with `--first` at most
+    /// the first contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     vertex_triangle: Option<Vec<(u32, u32, u32, u32, f64, f64)>>,
+    /// Body, vertex, vertex, body, vertex, vertex and two times. Absent or shortened as
+    /// `vertex_triangle`.
     #[serde(skip_serializing_if = "Option::is_none")]
     edge_edge: Option<Vec<(u32, u32, u32, u32, u32, u32, f64, f64)>>,
 }
 
+/// The contact that is the first, and the second of its times.
 #[derive(Serialize)]
 struct FirstEntry {
     time: f64,
@@ -197,41 +231,57 @@ impl FirstEntry {
     }
 }
 
+/// A place in a frame: pairs that hang together through neighbouring triangles.
+///
+/// Places are sorted by their number of pairs, most first. With `--count` and `--first` there are
+/// none.
 #[derive(Serialize)]
 struct PlaceEntry {
+    /// Equal from frame to frame, as long as the place lives.
     number: usize,
+    /// Number of pairs.
     count: usize,
     #[serde(flatten)]
-    lies: Lies,
+    location: Location,
 }
 
+/// A place over all frames, located in the frame that has most of its pairs.
 #[derive(Serialize)]
 struct LifeEntry {
+    /// The number of the place in every frame.
     number: usize,
+    /// The first and the last frame of the place.
     frames: [usize; 2],
+    /// The most pairs that it has in a frame.
     most_pairs: usize,
+    /// The frame that has them.
     most_in: usize,
     #[serde(flatten)]
-    lies: Lies,
+    location: Location,
 }
 
-/// Where a place is in a frame.
+/// Location of a place in one frame.
 #[derive(Serialize)]
-struct Lies {
+struct Location {
+    /// Smallest and largest coordinates of its triangles.
     #[serde(rename = "box")]
     around: [[f64; 3]; 2],
+    /// The first of its pairs in order.
     first_pair: [u32; 4],
     bodies: Vec<BodyEntry>,
 }
 
+/// Triangles of one body in a place.
 #[derive(Serialize)]
 struct BodyEntry {
     body: u32,
+    /// Number of triangles.
     triangles: usize,
+    /// The lowest of their numbers.
     first_triangle: u32,
 }
 
-impl Lies {
+impl Location {
     fn of(place: &Place) -> Self {
         let bodies = place.bodies.iter().map(|it| BodyEntry {
             body: it.body,
@@ -251,7 +301,7 @@ impl PlaceEntry {
         Self {
             number: place.number,
             count: place.count,
-            lies: Lies::of(place),
+            location: Location::of(place),
         }
     }
 }
@@ -263,7 +313,7 @@ impl LifeEntry {
             frames: [life.first_frame, life.last_frame],
             most_pairs: life.worst.count,
             most_in: life.worst_frame,
-            lies: Lies::of(&life.worst),
+            location: Location::of(&life.worst),
         }
     }
 }

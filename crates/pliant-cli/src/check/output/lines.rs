@@ -1,5 +1,6 @@
-//! A plain line for each pair, for programs that read lines: `FRAME BODY TRIANGLE BODY TRIANGLE`, sorted. With `--count` a line for
-//! each frame: `FRAME COUNT`. Nothing else.
+//! Plain lines for programs, one per pair: `FRAME BODY TRIANGLE BODY TRIANGLE`, sorted.
+//!
+//! With `--count` there is one line per frame: `FRAME COUNT`. Nothing else is printed.
 
 use super::form::Form;
 use super::tally::Tally;

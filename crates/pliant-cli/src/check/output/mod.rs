@@ -1,4 +1,4 @@
-//! What `pliant check` prints, frame by frame as it goes. Each format is a file.
+//! Output of `pliant check`, printed frame by frame. Each format is a file.
 
 mod files;
 mod form;
@@ -19,19 +19,19 @@ use pliant_check::{Check, Found, Interval};
 use std::io::{self, BufWriter, Stdout, Write};
 use tally::Tally;
 
-/// What a failing write is the failure of.
+/// Context of an error while printing.
 const WRITING: &str = "cannot write to standard output";
 
-/// Where answers go.
+/// Printer of a check, with running totals.
 pub(super) struct Output {
     out: BufWriter<Stdout>,
-    /// None where nothing is to be printed.
+    /// `None` where nothing is printed.
     form: Option<Box<dyn Form>>,
     tally: Tally,
 }
 
 impl Output {
-    /// Prints what is known before the first frame.
+    /// Prints everything that is known before the first frame.
     pub(super) fn begin(arguments: &Arguments, check: &Check) -> anyhow::Result<Self> {
         let form: Box<dyn Form> = match arguments.format {
             Format::Table => Box::new(table::Table::new(arguments)),
@@ -55,14 +55,14 @@ impl Output {
     pub(super) fn frame(&mut self, check: &Check, found: &Found) -> anyhow::Result<()> {
         self.print(|form, out, _| {
             form.frame(out, check, found)?;
-            // Someone is looking, or reading: each frame is shown when it is done.
+            // People watch and programs read along: each frame is shown when it is done.
             out.flush()
         })?;
         self.tally.count(found);
         Ok(())
     }
 
-    /// Prints what meets on the way to the next frame.
+    /// Prints contacts on the way to the next frame.
     pub(super) fn interval(&mut self, check: &Check, interval: &Interval) -> anyhow::Result<()> {
         self.print(|form, out, _| {
             form.interval(out, check, interval)?;
@@ -72,7 +72,7 @@ impl Output {
         Ok(())
     }
 
-    /// Prints the end, of a check that was completed or of one that could not be.
+    /// Prints the end of a check that was completed, or that stopped with an error.
     pub(super) fn end(
         mut self,
         check: &Check,
@@ -83,13 +83,14 @@ impl Output {
             form.end(out, check, tally, error)?;
             out.flush()
         });
-        // If both went wrong, what stopped the check comes first.
+        // If both failed, the error that stopped the check comes first.
         checked.and(printed)?;
         let [_, meeting] = self.tally.intervals;
         if let (Some(([frame, until], count)), Some(_)) = (self.tally.skipped, &self.form) {
             let count = counted((count, "interval", "intervals"));
             complain(&format!(
-                "note: {count} between frames not looked at, for a mesh changes there: the first from frame {frame} to {until}"
+                "note: {count} between frames not looked at, for a mesh changes there: \
+                 the first from frame {frame} to {until}"
             ));
         }
         Ok(if self.tally.intersecting > 0 || meeting > 0 {
@@ -110,10 +111,10 @@ impl Output {
     }
 }
 
-/// Passes on why a check could not begin; where errors are annotations, prints that too.
+/// Returns the error of a check that could not begin, and prints it where errors are annotations.
 pub(super) fn annotate<T>(arguments: &Arguments, error: anyhow::Error) -> anyhow::Result<T> {
     if arguments.format == Format::Github && !arguments.quiet {
-        // What stopped the check comes first, whether this can be printed or not.
+        // The error that stopped the check comes first, whether this can be printed or not.
         let _ = print_all(&github::failure(&error));
     }
     Err(error)

@@ -1,14 +1,17 @@
-//! Places, in words: a line each, for the table and for annotations.
+//! Places of pairs in words, one line each, for the table and for annotations.
 
 use crate::check::figures::{counted, short};
 use pliant_check::{Check, Life, Place};
 use pliant_io::shown;
 
-/// So many bodies of a place are named.
+/// Most bodies of a place that are named.
 const MOST_NAMED: usize = 3;
 
-/// `place 3: frames 12 to 40, 118 pairs at most, in frame 20`; of a place of one frame `place 3: 118 pairs in frame 20`; where the check
-/// has one frame `place 3: 118 pairs`.
+/// Frames and pairs of a place. The text depends on what there is to say:
+///
+/// - `place 3: frames 12 to 40, 118 pairs at most, in frame 20`;
+/// - for a place in one frame `place 3: 118 pairs in frame 20`;
+/// - for a check of one frame `place 3: 118 pairs`.
 pub(super) fn lived(check: &Check, life: &Life) -> String {
     let Life {
         first_frame,
@@ -20,7 +23,8 @@ pub(super) fn lived(check: &Check, life: &Life) -> String {
     let pairs = counted((worst.count, "pair", "pairs"));
     if first_frame < last_frame {
         format!(
-            "place {number}: frames {first_frame} to {last_frame}, {pairs} at most, in frame {worst_frame}"
+            "place {number}: frames {first_frame} to {last_frame}, \
+             {pairs} at most, in frame {worst_frame}"
         )
     } else if check.frame_count() > 1 {
         format!("place {number}: {pairs} in frame {worst_frame}")
@@ -29,7 +33,7 @@ pub(super) fn lived(check: &Check, life: &Life) -> String {
     }
 }
 
-/// How large, where, and whose triangles.
+/// Size, centre and triangles of a place.
 pub(super) fn lies(check: &Check, place: &Place) -> String {
     let [x, y, z] = place.centre().map(short);
     let size = short(place.size());

@@ -1,4 +1,4 @@
-//! A table for people.
+//! Table of a check, for people.
 
 use super::files::Files;
 use super::form::Form;
@@ -13,10 +13,10 @@ use pliant_check::{Baseline, BodyFacts, Check, Found, Interval};
 use pliant_io::shown;
 use std::io::{self, Write};
 
-/// A file in more pieces, or groups, than this is one line of the head.
+/// Most pieces or groups of a file that have lines of their own in the head.
 const MOST_PIECES: usize = 20;
 
-/// So many places have a line.
+/// Most places that have a line.
 const MOST_PLACES: usize = 20;
 
 #[expect(clippy::struct_excessive_bools, reason = "each is a choice of its own")]
@@ -29,7 +29,7 @@ pub(super) struct Table {
     within: Option<f64>,
     crossing: bool,
     swept: bool,
-    /// Known from the head on.
+    /// Set when the head is written.
     files: Option<Files>,
 }
 
@@ -48,7 +48,7 @@ impl Table {
         }
     }
 
-    /// What was asked.
+    /// The question, in words.
     fn asked(&self, check: &Check) -> String {
         let bodies = match (check.body_count(), self.itself) {
             (1, _) => "the body with itself",
@@ -123,7 +123,8 @@ impl Form for Table {
                     let size = size(boxes[number]);
                     writeln!(
                         out,
-                        "body {number}: {name}, {vertices}, {triangles}, from triangle {first_triangle} on, {size}"
+                        "body {number}: {name}, {vertices}, {triangles}, \
+                         from triangle {first_triangle} on, {size}"
                     )?;
                 }
                 write!(out, "  of {name}, {vertices}, {triangles}")?;
@@ -260,7 +261,7 @@ impl Form for Table {
     }
 }
 
-/// A line a place, most pairs first.
+/// Prints a line for each place, most pairs first.
 fn list_places(out: &mut dyn Write, check: &Check) -> io::Result<()> {
     let (count, lives) = check.places();
     if count == 0 {
@@ -278,7 +279,7 @@ fn list_places(out: &mut dyn Write, check: &Check) -> io::Result<()> {
     Ok(())
 }
 
-/// How large a box is.
+/// Side lengths of a box.
 fn size([lower, upper]: [[f64; 3]; 2]) -> String {
     let sides = [0, 1, 2].map(|axis| short(upper[axis] - lower[axis]));
     format!("{} large", sides.join(" x "))

@@ -1,29 +1,29 @@
-//! What all frames of a check come to, and the lines that say it.
+//! Totals over all frames of a check, and the lines that say them.
 
 use crate::check::figures::{counted, short};
 use crate::table::grouped;
 use pliant_check::{Found, Interval, Kinds};
 
-/// What all frames so far come to.
+/// Totals over all frames so far.
 #[derive(Default)]
 pub(super) struct Tally {
     pub(super) frames: usize,
     pub(super) intersecting: usize,
-    /// The distance that was asked for, if not what intersects was.
+    /// Largest distance of pairs. `None`: pairs intersect.
     pub(super) within: Option<f64>,
-    /// The frame with the nearest pair, and how far apart it is.
+    /// Frame with the nearest pair, and the distance of that pair.
     pub(super) nearest: Option<(usize, f64)>,
-    /// The frame with the most pairs, and their number; none where not all pairs are known.
+    /// Frame with the most pairs, and their number. Frames with unknown pairs do not count.
     pub(super) worst: Option<(usize, usize)>,
-    /// How many pairs are of which kind, in frames of which all were asked for.
+    /// Number of pairs of each kind, in frames all of whose pairs were asked for.
     pub(super) kinds: Kinds,
-    /// Pairs that are left out, for their places only touch.
+    /// Number of pairs left out because their places only touch.
     pub(super) only_touching: usize,
-    /// Pairs with a triangle that has no area, counted or left out.
+    /// Number of pairs with a triangle without area, counted or left out.
     pub(super) degenerate: usize,
-    /// Intervals between frames that were looked at, and those in which something meets.
+    /// Number of intervals between frames that were searched, and of those with a contact.
     pub(super) intervals: [usize; 2],
-    /// The frames of the first that was not, for a mesh changes in it, and how many were not.
+    /// First interval skipped because a mesh changes in it, and the number of all such intervals.
     pub(super) skipped: Option<([usize; 2], usize)>,
 }
 
@@ -59,7 +59,7 @@ impl Tally {
         }
     }
 
-    /// One line for people about pairs that do not cross: those counted, or those of places that were left out.
+    /// A line about pairs that do not cross, or about places left out because they only touch.
     pub(super) fn kinds(&self, leaves_touching_out: bool) -> Option<String> {
         if leaves_touching_out {
             let pairs = counted((self.only_touching, "pair of a place", "pairs of places"));
@@ -75,11 +75,12 @@ impl Tally {
         }
         let [cross, overlap, touch] = [crossing, overlapping, touching].map(|n| grouped(n as u64));
         Some(format!(
-            "{cross} of these pairs cross, {overlap} overlap in a plane, {touch} touch; `--crossing` leaves out places where surfaces only touch"
+            "{cross} of these pairs cross, {overlap} overlap in a plane, {touch} touch; \
+             `--crossing` leaves out places where surfaces only touch"
         ))
     }
 
-    /// One line for people about what meets between frames, if that was asked.
+    /// A line about contacts between frames, if they were asked for.
     pub(super) fn swept(&self) -> Option<String> {
         let [looked_at, meeting] = self.intervals.map(|n| grouped(n as u64));
         let not = match self.skipped {
@@ -97,7 +98,7 @@ impl Tally {
         ))
     }
 
-    /// One line for people.
+    /// A line about all frames.
     pub(super) fn summary(&self) -> String {
         let [intersecting, frames] = [self.intersecting, self.frames].map(|n| grouped(n as u64));
         let worst = self.worst.map_or_else(String::new, |(frame, count)| {
@@ -110,7 +111,8 @@ impl Tally {
             format!("; least distance: {} in frame {frame}", short(distance))
         });
         format!(
-            "{intersecting} of {frames} frames have triangles of two bodies at most {within} apart{nearest}{worst}"
+            "{intersecting} of {frames} frames have triangles of two bodies \
+             at most {within} apart{nearest}{worst}"
         )
     }
 }

@@ -1,4 +1,4 @@
-//! Runs the program and reads what it said.
+//! Runs of the program, and their output.
 
 #![allow(dead_code, reason = "each test uses its part")]
 
@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// What a run of the program left behind.
+/// Output and exit code of a run.
 pub(crate) struct Said {
     pub(crate) code: i32,
     pub(crate) out: String,
@@ -24,7 +24,7 @@ impl Said {
             .unwrap_or_else(|error| panic!("{error}: {}{}", self.out, self.err))
     }
 
-    /// The same without the places and the boxes of bodies, which have tests of their own.
+    /// Standard output as JSON, without places and boxes of bodies, which have tests of their own.
     pub(crate) fn json_without_places(&self) -> Value {
         let mut json = self.json();
         let members = json.as_object_mut().unwrap();
@@ -42,7 +42,7 @@ impl Said {
         json
     }
 
-    /// The number of pairs in each frame.
+    /// Number of pairs in each frame.
     pub(crate) fn counts(&self) -> Vec<u64> {
         let json = self.json();
         json["frames"]
@@ -53,7 +53,7 @@ impl Said {
             .collect()
     }
 
-    /// Fails unless the program ended with code 2 and exactly one line, in which all of `words` occur.
+    /// Fails unless the program ended with code 2 and one line, in which all of `words` occur.
     pub(crate) fn assert_refused(&self, words: &[&str]) {
         assert_eq!(self.code, 2, "{}{}", self.out, self.err);
         assert_eq!(self.err.trim_end().lines().count(), 1, "{}", self.err);
@@ -63,7 +63,7 @@ impl Said {
     }
 }
 
-/// A folder of text files.
+/// A temporary folder of text files.
 pub(crate) fn folder(files: &[(&str, String)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, text) in files {
@@ -72,7 +72,7 @@ pub(crate) fn folder(files: &[(&str, String)]) -> tempfile::TempDir {
     folder
 }
 
-/// `pliant check` in a folder.
+/// Runs `pliant check` in a folder.
 pub(crate) fn check(folder: &Path, arguments: &[&str]) -> Said {
     pliant(folder, &[&["check"], arguments].concat())
 }
@@ -91,18 +91,18 @@ pub(crate) fn pliant(folder: &Path, arguments: &[&str]) -> Said {
     }
 }
 
-/// So long a program runs only if it hangs, however busy the machine is.
+/// Time after which a program must have hung, however busy the machine is.
 const LIMIT: Duration = Duration::from_secs(600);
 
-/// A run of the program, and the most memory it took, in bytes, where the system tells.
+/// A run of the program, and its peak memory in bytes, where the system reports it.
 pub(crate) struct Measured {
     pub(crate) said: Said,
     pub(crate) peak: Option<u64>,
 }
 
-/// Runs `pliant` in a folder; fails if it does not come to an end.
+/// Runs `pliant` in a folder and measures it. Fails if it does not end.
 pub(crate) fn measured(folder: &Path, arguments: &[&str]) -> Measured {
-    // Files, not pipes: a pipe that is full would hold the program up.
+    // Files instead of pipes: a full pipe would block the program.
     let kept = tempfile::tempdir().unwrap();
     let [out, err] = ["out", "err"].map(|name| kept.path().join(name));
     let mut child = Command::new(env!("CARGO_BIN_EXE_pliant"))
@@ -134,7 +134,7 @@ pub(crate) fn measured(folder: &Path, arguments: &[&str]) -> Measured {
     Measured { said, peak }
 }
 
-/// The most memory that a process has taken so far, in bytes: Linux remembers it while the process lives.
+/// Peak memory of a process so far, in bytes. Linux reports it while the process lives.
 fn peak_so_far(process: u32) -> Option<u64> {
     let status = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
@@ -142,8 +142,9 @@ fn peak_so_far(process: u32) -> Option<u64> {
     Some(kilobytes << 10)
 }
 
-/// Runs `pliant` with standard output, and perhaps standard error, closed or full; returns the exit code and what it said on
-/// standard error.
+/// Runs `pliant` with standard output, and perhaps standard error, closed or full.
+///
+/// Returns the exit code and the text on standard error.
 #[cfg(unix)]
 pub(crate) fn pliant_into(
     folder: &Path,

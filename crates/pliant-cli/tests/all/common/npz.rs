@@ -1,19 +1,19 @@
-//! NPZ files by hand, honest and not; a surface as one, and as a GLB file.
+//! NPZ files built by hand, honest or not; and a surface as an NPZ or a GLB file.
 
 use serde_json::json;
 
-/// One entry as the directory announces it.
+/// An entry, as the directory of the archive announces it.
 pub(crate) struct Entry {
     pub(crate) name: &'static str,
     pub(crate) deflated: bool,
-    /// Unpacked, in bytes.
+    /// Unpacked size in bytes.
     pub(crate) size: u32,
     pub(crate) checksum: u32,
     pub(crate) data: Vec<u8>,
 }
 
 impl Entry {
-    /// An array that is what it says.
+    /// A stored array that is what it claims.
     pub(crate) fn stored(name: &'static str, array: Vec<u8>) -> Self {
         Self {
             name,
@@ -71,20 +71,20 @@ fn checksum(data: &[u8]) -> u32 {
     })
 }
 
-/// A bumpy surface that moves, as a whole file.
+/// A bumpy moving surface, written as a whole file.
 #[derive(Clone, Copy)]
 pub(crate) struct Surface {
-    /// Vertices each way.
+    /// Number of vertices each way.
     pub(crate) side: u32,
     pub(crate) frames: u32,
-    /// In float64.
+    /// Whether positions are float64.
     pub(crate) wide: bool,
-    /// Every triangle has vertices of its own.
+    /// Whether every triangle has vertices of its own.
     pub(crate) split: bool,
 }
 
 impl Surface {
-    /// In float32, its triangles joined.
+    /// A surface in float32 with joined triangles.
     pub(crate) fn new(side: u32, frames: u32) -> Self {
         let (wide, split) = (false, false);
         Self {
@@ -95,7 +95,7 @@ impl Surface {
         }
     }
 
-    /// Of one frame: the positions and the triangles.
+    /// Bytes of one frame: positions and triangles.
     pub(crate) fn bytes_of_a_frame(self) -> u64 {
         let coordinate = if self.wide { 8 } else { 4 };
         let [vertices, triangles] = [self.vertices(), self.triangles()].map(u64::from);
@@ -114,7 +114,7 @@ impl Surface {
         }
     }
 
-    /// For each vertex its place on the grid, and the vertices of the corners.
+    /// Place on the grid of each vertex, and the vertices of the corners.
     fn mesh(self) -> (Vec<u32>, Vec<u32>) {
         let Self { side, .. } = self;
         let mut corners: Vec<u32> = Vec::new();
@@ -162,8 +162,10 @@ impl Surface {
         ])
     }
 
-    /// The same as a GLB file in f32: its shape in the first frame, held by four joints or not, moved by so many morph targets,
-    /// each everywhere. If there are either it moves, and has three frames at thirty a second.
+    /// The surface as a GLB file in f32, in the shape of its first frame.
+    ///
+    /// It is held by four joints if `held`, and moved by `targets` morph targets, each at all
+    /// vertices. With either it has three frames at thirty a second; otherwise it stands still.
     pub(crate) fn glb(self, held: bool, targets: usize) -> Vec<u8> {
         let (places, corners) = self.mesh();
         let count = places.len();
@@ -171,7 +173,9 @@ impl Surface {
         let mut array = |bytes: Vec<u8>, component: u32, count: usize, shape: &str| {
             views.push(json!({"buffer": 0, "byteOffset": data.len(), "byteLength": bytes.len()}));
             let view = views.len() - 1;
-            accessors.push(json!({"bufferView": view, "componentType": component, "count": count, "type": shape}));
+            accessors.push(json!({
+                "bufferView": view, "componentType": component, "count": count, "type": shape
+            }));
             data.extend(bytes);
             view
         };

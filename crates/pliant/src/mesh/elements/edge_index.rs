@@ -2,6 +2,7 @@
 
 use crate::held::{self, held};
 use crate::ids::CallerTriangle;
+use crate::mesh::edges::{firsts_of, number_of, sides};
 use crate::mesh::{Bits, Topology, TrianglesAt};
 use std::collections::BTreeSet;
 
@@ -24,28 +25,11 @@ pub(super) struct EdgeIndex {
     pub(super) gone: Bits,
 }
 
-/// The ends of the three edges of a triangle, the smaller first, from its first corner on; the same vertex twice where it has none.
-pub(super) fn sides([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
-    [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
-}
-
 impl EdgeIndex {
     /// Of edges that are sorted. Cost: linear.
     pub(super) fn new(callers: &[[u32; 2]], numbers: &[u32], topology: &Topology) -> Self {
-        let mut firsts = vec![0_u32; topology.vertex_count() + 1];
-        for [low, _] in callers {
-            firsts[*low as usize + 1] += 1;
-        }
-        for vertex in 1..firsts.len() {
-            firsts[vertex] += firsts[vertex - 1];
-        }
-        let number = |[low, high]: [u32; 2]| {
-            if low == high {
-                return UNSEEN;
-            }
-            let [first, end] = [0, 1].map(|next| firsts[low as usize + next] as usize);
-            (first + callers[first..end].partition_point(|edge| edge[1] < high)) as u32
-        };
+        let firsts = firsts_of(callers, topology.vertex_count());
+        let number = |ends: [u32; 2]| number_of(callers, &firsts, ends).unwrap_or(UNSEEN);
         let mut tree_edges = vec![UNSEEN; callers.len()];
         for (tree_edge, &number) in (0..).zip(numbers) {
             tree_edges[number as usize] = tree_edge;

@@ -5,8 +5,9 @@
 //! to one that was taken out. What comes belongs to the triangles that come, behind all others.
 
 use super::Elements;
-use super::edge_index::{EdgeIndex, NO_EDGE, UNSEEN, sides};
+use super::edge_index::{EdgeIndex, NO_EDGE, UNSEEN};
 use crate::ids::TreeTriangle;
+use crate::mesh::edges::sides;
 use crate::mesh::{Bits, Order, Topology, TrianglesAt};
 use std::collections::BTreeMap;
 
@@ -59,11 +60,8 @@ impl Elements {
                 *number = named[*number as usize].0;
             }
         }
-        index.free = (0..)
-            .zip(edges)
-            .filter(|it| !is_edge(it))
-            .map(|(number, _)| number)
-            .collect();
+        let empty = (0..).zip(edges).filter(|it| !is_edge(it));
+        index.free = empty.map(|(number, _)| number).collect();
         self.callers = edges.to_vec();
         true
     }
@@ -126,7 +124,7 @@ impl Elements {
         used_before: u32,
     ) {
         self.tree_vertices.take();
-        let Some(index) = &mut self.index else {
+        let Some(mut index) = self.index.take() else {
             return;
         };
         let first_edge = self.firsts[first.index()][1];
@@ -140,26 +138,19 @@ impl Elements {
         self.ends.truncate(first_edge as usize);
         self.numbers.truncate(first_edge as usize);
         self.firsts.truncate(first.index());
-        let mut used = used_before;
-        for place in first.0..order.all_corners().len() as u32 {
-            let place = TreeTriangle(place);
-            let corners = order.corners(place);
-            self.firsts.push([used, self.ends.len() as u32]);
-            used = corners
-                .iter()
-                .fold(used, |used, corner| used.max(corner.0 + 1));
-            if gone_triangles.has(place.0) {
-                continue;
+        // Nobody stops it.
+        let _ = self.give_to_triangles(order, first, used_before, &|| false, |at, side, next| {
+            if gone_triangles.has(at.0) {
+                return None;
             }
-            let edges = index.of_triangles[order.caller_triangle(place).index()];
-            for ([i, j], number) in [[0, 1], [1, 2], [2, 0]].into_iter().zip(edges) {
-                if number != UNSEEN && index.tree_edges[number as usize] == UNSEEN {
-                    index.tree_edges[number as usize] = self.ends.len() as u32;
-                    self.ends.push([corners[i], corners[j]]);
-                    self.numbers.push(number);
-                }
+            let number = index.of_triangles[order.caller_triangle(at).index()][side];
+            let known = index.tree_edges.get_mut(number as usize)?;
+            let is_new = *known == UNSEEN;
+            if is_new {
+                *known = next;
             }
-        }
-        self.firsts.push([used, self.ends.len() as u32]);
+            is_new.then_some(number)
+        });
+        self.index = Some(index);
     }
 }

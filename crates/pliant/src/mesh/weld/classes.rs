@@ -1,9 +1,11 @@
 //! Vertices that become one, and which of them may not: corners of one triangle.
 
+use crate::mesh::components::leader;
+use crate::mesh::edges::each_edge;
 use std::collections::BTreeSet;
 
-/// So many triangles or vertices are gone through before it is asked whether somebody wants to stop.
-pub(super) const UNINTERRUPTED: usize = 1 << 14;
+/// The place of a vertex that is not among them.
+const NO_PLACE: u32 = u32::MAX;
 
 /// The vertices at some edges, by which of them have become one. Those that share a triangle never do.
 pub(super) struct Classes {
@@ -27,7 +29,7 @@ impl Classes {
         edges: &[[u32; 2]],
         stop: &dyn Fn() -> bool,
     ) -> Option<Self> {
-        let mut places = vec![u32::MAX; count];
+        let mut places = vec![NO_PLACE; count];
         for &vertex in edges.as_flattened() {
             places[vertex as usize] = 0;
         }
@@ -38,24 +40,13 @@ impl Classes {
         }
         let all = 0..vertices.len() as u32;
         let mut conflicts = vec![BTreeSet::new(); vertices.len()];
-        for some in triangles.chunks(UNINTERRUPTED) {
-            for corners in some {
-                let of = |corner: usize| places.get(corners[corner] as usize).copied();
-                for [i, j] in [[0, 1], [1, 2], [2, 0]] {
-                    if let (Some(a), Some(b)) = (of(i), of(j))
-                        && a != u32::MAX
-                        && b != u32::MAX
-                        && a != b
-                    {
-                        conflicts[a as usize].insert(b);
-                        conflicts[b as usize].insert(a);
-                    }
-                }
+        each_edge(triangles, stop, |ends| {
+            let [a, b] = ends.map(|vertex| places[vertex as usize]);
+            if a != NO_PLACE && b != NO_PLACE {
+                conflicts[a as usize].insert(b);
+                conflicts[b as usize].insert(a);
             }
-            if stop() {
-                return None;
-            }
-        }
+        })?;
         Some(Self {
             next: all.clone().collect(),
             lowest: all.collect(),
@@ -67,13 +58,7 @@ impl Classes {
 
     /// The place that stands for a vertex.
     fn of(&mut self, vertex: u32) -> u32 {
-        let mut place = self.places[vertex as usize];
-        while self.next[place as usize] != place {
-            let beyond = self.next[self.next[place as usize] as usize];
-            self.next[place as usize] = beyond;
-            place = beyond;
-        }
-        place
+        leader(&mut self.next, self.places[vertex as usize])
     }
 
     /// Whether the ends of two sides, one by one, are not all one and may become it. What they may not, they never may.

@@ -1,14 +1,13 @@
 //! Edges near edges.
 
+use super::hit::EdgeEdge;
 use super::{Candidates, keep};
 use crate::geometry::larger;
-use crate::hits::EdgeEdge;
 use crate::kernels::ring::Ring;
-use crate::kernels::{Buffer, Coordinate, dispatch};
+use crate::kernels::{Coordinate, dispatch};
 use crate::queries::near::runs::{RUNS_AT_ONCE, RunPairs, near_runs};
 use crate::queries::near::{Which, groups};
-use crate::queries::{Batch, CallerIds, Kind, LeafTest, Needs};
-use crate::statistics::Statistics;
+use crate::queries::{Batch, CallerIds, FoundBy, Kind, LeafTest, Needs, shows_hits};
 
 /// Edges whose boxes are near each other.
 pub(crate) type EdgeEdgeCandidates<S> = Candidates<EdgeEdge, S>;
@@ -20,18 +19,13 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
     type TreeHit = [u32; 2];
     type Buffers = ();
 
+    shows_hits!();
+
     fn needs(&self) -> Needs {
         self.margin.needs(Which::Edges)
     }
 
-    fn test(
-        &self,
-        leaves: &LeafTest<S>,
-        batch: Batch,
-        _buffers: &mut (),
-        hits: &mut Buffer<[u32; 2]>,
-        statistics: &mut Statistics,
-    ) {
+    fn test(&self, leaves: &LeafTest<S>, batch: Batch, found: &mut FoundBy<Self>) {
         let pairs = batch.runs();
         let [Some(of_a), Some(of_b)] = leaves.elements else {
             return;
@@ -58,7 +52,7 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
             self.margin.holds(leaves, [0, 1], a, b)
         };
         let mut ring = Ring::EMPTY;
-        let before = hits.len();
+        let before = found.hits.len();
         dispatch!(leaves.instructions, i => {
             for pairs in pairs.chunks(RUNS_AT_ONCE) {
                 let runs = RunPairs {
@@ -70,19 +64,19 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
                 for &[a, b] in near_runs(i, (runs_a, runs_b), runs, limits, &mut kept) {
                     if leaves.is_one_tree && a == b {
                         runs_a.run(a).compare_within(i, &mut ring, limits, |pair, is_sure| {
-                            keep([1, u64::from(is_sure)], |_| pair, meet, holds, hits, statistics);
+                            keep([1, u64::from(is_sure)], |_| pair, meet, holds, found);
                         });
                         continue;
                     }
                     let (a, b) = (runs_a.run(a), runs_b.run(b));
                     a.compare(i, &b, leaves.is_one_body, limits, |[first_a, first_b], near, sure| {
                         let pair = |bit: u32| [first_a + bit / 8, first_b + bit % 8];
-                        keep([near, sure], pair, meet, holds, hits, statistics);
+                        keep([near, sure], pair, meet, holds, found);
                     });
                 }
             }
         });
-        statistics.pairs += (hits.len() - before) as u64;
+        found.statistics.pairs += (found.hits.len() - before) as u64;
     }
 
     #[inline]

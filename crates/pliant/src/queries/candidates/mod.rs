@@ -10,15 +10,16 @@
 //! `near` has the boxes of what belongs to a run, `kernels::gaps` compares them eight at a time, and few are left to exact arithmetic.
 
 mod edge_edge;
+mod hit;
 mod vertex_triangle;
 
-use super::{LeafTest, Needs, OF_MOTIONS, Reach, Shown, Which};
+use super::{Found, LeafTest, Needs, OF_MOTIONS, Reach, Shown, Which};
 use crate::geometry::{Bounds, Real};
 use crate::ids::TreeVertex;
+use crate::kernels::Coordinate;
 use crate::kernels::gaps::Limits;
-use crate::kernels::{Buffer, Coordinate};
-use crate::statistics::Statistics;
 pub(crate) use edge_edge::EdgeEdgeCandidates;
+pub use hit::{EdgeEdge, VertexTriangle};
 use std::marker::PhantomData;
 pub(crate) use vertex_triangle::VertexTriangleCandidates;
 
@@ -44,9 +45,9 @@ fn keep(
     pair: impl Fn(u32) -> [u32; 2],
     meet: Option<impl Fn([u32; 2]) -> bool>,
     holds: impl Fn([u32; 2]) -> bool,
-    hits: &mut Buffer<[u32; 2]>,
-    statistics: &mut Statistics,
+    found: &mut Found<[u32; 2], ()>,
 ) {
+    let statistics = &mut found.statistics;
     statistics.candidate_pairs += u64::from(near.count_ones());
     if let Some(meet) = meet {
         near = only(near, near, |bit| meet(pair(bit)));
@@ -56,7 +57,7 @@ fn keep(
         statistics.exact_decisions += u64::from(undecided.count_ones());
         near = only(near, undecided, |bit| holds(pair(bit)));
     }
-    hits.room().push_bits(near, pair);
+    found.hits.room().push_bits(near, pair);
 }
 
 /// A mask without those bits of a part of it of which `keeps` does not say so.

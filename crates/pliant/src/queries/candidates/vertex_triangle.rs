@@ -1,14 +1,13 @@
 //! Vertices near triangles.
 
+use super::hit::VertexTriangle;
 use super::{Candidates, keep};
 use crate::geometry::larger;
-use crate::hits::VertexTriangle;
 use crate::ids::{TreeTriangle, TreeVertex};
-use crate::kernels::{Buffer, Coordinate, dispatch};
+use crate::kernels::{Coordinate, dispatch};
 use crate::queries::near::runs::{RUNS_AT_ONCE, RunPairs, near_runs};
 use crate::queries::near::{Which, groups};
-use crate::queries::{Batch, CallerIds, Kind, LeafTest, Needs};
-use crate::statistics::Statistics;
+use crate::queries::{Batch, CallerIds, FoundBy, Kind, LeafTest, Needs, shows_hits};
 
 /// Vertices and triangles whose boxes are near each other, of one body or of two: the vertices of either.
 pub(crate) type VertexTriangleCandidates<S> = Candidates<VertexTriangle, S>;
@@ -23,24 +22,19 @@ impl<S: Coordinate> Kind for VertexTriangleCandidates<S> {
     type TreeHit = [u32; 2];
     type Buffers = ();
 
+    shows_hits!();
+
     fn needs(&self) -> Needs {
         self.margin.needs(Which::VerticesAndTriangles)
     }
 
-    fn test(
-        &self,
-        leaves: &LeafTest<S>,
-        batch: Batch,
-        _buffers: &mut (),
-        hits: &mut Buffer<[u32; 2]>,
-        statistics: &mut Statistics,
-    ) {
+    fn test(&self, leaves: &LeafTest<S>, batch: Batch, found: &mut FoundBy<Self>) {
         let pairs = batch.runs();
-        let before = hits.len();
+        let before = found.hits.len();
         for side in 0..2 {
-            self.test_side(leaves, side, pairs, hits, statistics);
+            self.test_side(leaves, side, pairs, found);
         }
-        statistics.pairs += (hits.len() - before) as u64;
+        found.statistics.pairs += (found.hits.len() - before) as u64;
     }
 
     #[inline]
@@ -74,8 +68,7 @@ impl<S: Coordinate> VertexTriangleCandidates<S> {
         leaves: &LeafTest<S>,
         side: usize,
         pairs: &[[u32; 2]],
-        hits: &mut Buffer<[u32; 2]>,
-        statistics: &mut Statistics,
+        found: &mut FoundBy<Self>,
     ) {
         let sides = [side, 1 - side];
         let [Some(of_vertices), Some(of_triangles)] = sides.map(|side| leaves.elements[side])
@@ -126,7 +119,7 @@ impl<S: Coordinate> VertexTriangleCandidates<S> {
                     let (a, b) = (vertices.run(a), triangles.run(b));
                     a.compare(i, &b, leaves.is_one_body, limits, |[first, second], near, sure| {
                         let pair = |bit: u32| [first + bit / 8, (second + bit % 8) | tag];
-                        keep([near, sure], pair, meet, holds, hits, statistics);
+                        keep([near, sure], pair, meet, holds, found);
                     });
                 }
             }

@@ -2,9 +2,7 @@
 
 use crate::geometry::Real;
 use crate::kernels::Simd;
-use crate::kernels::closest::{
-    Corners, FourClosest, along_normal, of_edges, of_vertices_and_triangles,
-};
+use crate::kernels::closest::{Corners, along_normal, of_elements};
 use crate::threads::Interrupt;
 use pliant_exact::distance::{Closest, Primitives, closest};
 
@@ -18,20 +16,6 @@ pub(in crate::queries) fn half(distance: f64) -> f64 {
         half.next_up()
     } else {
         half
-    }
-}
-
-/// Where four pairs are closest, and between what their distances are.
-#[inline(always)]
-pub(in crate::queries) fn four_closest<I: Simd, S: Real>(
-    i: I,
-    are_edges: bool,
-    pairs: &[Corners<S>; 4],
-) -> FourClosest {
-    if are_edges {
-        of_edges(i, pairs)
-    } else {
-        of_vertices_and_triangles(i, pairs)
     }
 }
 
@@ -62,24 +46,23 @@ pub(crate) fn closest_of<I: Simd, S: Real>(
     interrupt: &Interrupt,
     mut take: impl FnMut(usize, &Closest),
 ) -> bool {
-    let found = four_closest(i, are_edges, pairs);
+    let found = of_elements(i, are_edges, pairs);
     for lane in 0..count {
-        let distance = found.distance[lane];
-        let one = if found.most[lane] - found.least[lane] <= ACCURACY * distance {
-            Closest {
-                distance,
-                along: found.along.map(|lanes| lanes[lane]),
-                direction: found.way.map(|lanes| lanes[lane] / distance),
-            }
+        let (distance, most) = (found.distance[lane], found.most[lane]);
+        let along = found.along.map(|lanes| lanes[lane]);
+        let way = found.way.map(|lanes| lanes[lane]);
+        let in_direction = |direction| Closest {
+            distance,
+            along,
+            direction,
+        };
+        let one = if most - found.least[lane] <= ACCURACY * distance {
+            in_direction(way.map(|x| x / distance))
         } else if let Some((direction, least)) = along_normal(are_edges, &pairs[lane])
-            && found.most[lane] - least <= ACCURACY * distance
-            && is_the_way(direction, found.way.map(|lanes| lanes[lane]), distance)
+            && most - least <= ACCURACY * distance
+            && is_the_way(direction, way, distance)
         {
-            Closest {
-                distance,
-                along: found.along.map(|lanes| lanes[lane]),
-                direction,
-            }
+            in_direction(direction)
         } else if interrupt.is_set() {
             return false;
         } else {

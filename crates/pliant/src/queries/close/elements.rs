@@ -1,15 +1,15 @@
 //! Vertices and triangles, and edges, that are at most some distance apart.
 
-use super::closest::{exactly, four_closest, half};
-use super::measured::{CloseKind, ElementPair, Measurable};
+use super::closest::{exactly, half};
+use super::measured::{ElementPair, Measurable, measure_all};
 use crate::geometry::{Points, Real};
 use crate::ids::TreeVertex;
-use crate::kernels::closest::{Corners, decide_eight};
-use crate::kernels::{Buffer, Coordinate, Instructions, Simd, dispatch};
+use crate::kernels::closest::{Corners, decide_eight, of_elements};
+use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
 use crate::queries::{
-    Batch, CallerIds, EdgeEdgeCandidates, Kind, LeafTest, Margin, Needs, VertexTriangleCandidates,
+    Batch, CallerIds, EdgeEdgeCandidates, FoundBy, Kind, LeafTest, Margin, Needs,
+    VertexTriangleCandidates,
 };
-use crate::statistics::Statistics;
 use pliant_exact::distance::are_within_distance;
 
 /// Candidates of a kind that are at most so far apart.
@@ -51,7 +51,6 @@ pub(crate) trait ElementCandidates:
     #[inline(always)]
     fn callers_corners<'q>(
         leaves: &LeafTest<'q, Self::Scalar>,
-        _ids: &CallerIds,
         hit: [u32; 2],
     ) -> Option<Corners<'q, Self::Scalar>> {
         Self::corners(leaves, hit)
@@ -77,7 +76,7 @@ fn is_close<S: Real>(
     distance: f64,
     exact_decisions: &mut u64,
 ) -> bool {
-    let found = dispatch!(instructions, i => four_closest(i, are_edges, &[*pair; 4]));
+    let found = dispatch!(instructions, i => of_elements(i, are_edges, &[*pair; 4]));
     if (found.most[0] <= distance) | (found.least[0] > distance) {
         return found.most[0] <= distance;
     }
@@ -85,9 +84,13 @@ fn is_close<S: Real>(
     are_within_distance(&exactly(are_edges, pair), distance)
 }
 
-impl<K: ElementCandidates> Kind for Close<K> {
+impl<K: ElementCandidates> Kind for Close<K>
+where
+    K::Hit: for<'c> Measurable<Corners<'c, K::Scalar> = Corners<'c, K::Scalar>>,
+{
     type Scalar = K::Scalar;
     type Hit = K::Hit;
+    type Shown = <K::Hit as Measurable>::Close;
     type TreeHit = [u32; 2];
     type Buffers = ();
 
@@ -95,41 +98,28 @@ impl<K: ElementCandidates> Kind for Close<K> {
         self.candidates.needs()
     }
 
-    fn test(
-        &self,
-        leaves: &LeafTest<K::Scalar>,
-        batch: Batch,
-        buffers: &mut (),
-        hits: &mut Buffer<[u32; 2]>,
-        statistics: &mut Statistics,
-    ) {
-        let before = hits.len();
-        let pairs_before = statistics.pairs;
-        self.candidates
-            .test(leaves, batch, buffers, hits, statistics);
-        let exact = &mut statistics.exact_decisions;
-        let new = hits.tail_mut(before);
+    fn test(&self, leaves: &LeafTest<K::Scalar>, batch: Batch, found: &mut FoundBy<Self>) {
+        let before = found.hits.len();
+        let pairs_before = found.statistics.pairs;
+        self.candidates.test(leaves, batch, found);
+        let exact = &mut found.statistics.exact_decisions;
+        let new = found.hits.tail_mut(before);
         let kept = dispatch!(leaves.instructions, i => self.keep(i, leaves, new, exact));
-        hits.truncate(before + kept);
-        statistics.pairs = pairs_before + kept as u64;
+        found.hits.truncate(before + kept);
+        found.statistics.pairs = pairs_before + kept as u64;
     }
 
     #[inline]
     fn to_caller(&self, ids: &CallerIds, hit: [u32; 2]) -> K::Hit {
         self.candidates.to_caller(ids, hit)
     }
-}
 
-impl<K: ElementCandidates> CloseKind for Close<K>
-where
-    K::Hit: for<'c> Measurable<Corners<'c, K::Scalar> = Corners<'c, K::Scalar>>,
-{
-    fn callers_corners<'q>(
-        leaves: &LeafTest<'q, K::Scalar>,
-        ids: &CallerIds,
-        hit: [u32; 2],
-    ) -> Option<Corners<'q, K::Scalar>> {
-        K::callers_corners(leaves, ids, hit)
+    fn show(&self, leaves: &LeafTest<K::Scalar>, hits: &[[u32; 2]], shown: &mut Vec<Self::Shown>) {
+        let pair = |hit| self.to_caller(&leaves.ids, hit);
+        let what = (pair, |hit| K::callers_corners(leaves, hit));
+        let (how, interrupt) = (leaves.instructions, leaves.interrupt);
+        let take = |close| shown.push(close);
+        dispatch!(how, i => measure_all::<_, K::Scalar, _, _>(i, hits, interrupt, what, take));
     }
 }
 
@@ -194,19 +184,15 @@ impl<S: Coordinate> ElementCandidates for EdgeEdgeCandidates<S> {
         Some([(0, a0), (0, a1), (1, b0), (1, b1)])
     }
 
-    fn callers_corners<'q>(
-        leaves: &LeafTest<'q, S>,
-        ids: &CallerIds,
-        hit: [u32; 2],
-    ) -> Option<Corners<'q, S>> {
+    fn callers_corners<'q>(leaves: &LeafTest<'q, S>, hit: [u32; 2]) -> Option<Corners<'q, S>> {
         let mut ends = Self::ends(leaves, hit)?;
-        for (ends, order) in ends.iter_mut().zip(ids.orders) {
+        for (ends, order) in ends.iter_mut().zip(leaves.ids.orders) {
             ends.sort_unstable_by_key(|&end| order.caller_vertex(end).0);
         }
         let [of_a, of_b] = leaves.shapes.map(|shape| shape.positions);
         let [a0, a1] = ends[0].map(|end| of_a.padded(end));
         let [b0, b1] = ends[1].map(|end| of_b.padded(end));
-        Some(if Self::is_swapped(ids, hit) {
+        Some(if Self::is_swapped(&leaves.ids, hit) {
             [b0, b1, a0, a1]
         } else {
             [a0, a1, b0, b1]

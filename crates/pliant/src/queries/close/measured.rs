@@ -1,12 +1,12 @@
-//! Close pairs that are measured as they are found, for visitors; a list is measured once it is sorted.
+//! Measuring close pairs: lists once they are sorted, and as pairs are found where visitors see
+//! them.
 
 use super::closest::closest_of;
-use crate::close_pairs::{CloseEdgeEdge, CloseVertexTriangle};
-use crate::hits::{EdgeEdge, Hit, VertexTriangle};
+use super::hit::{CloseEdgeEdge, CloseVertexTriangle};
 use crate::kernels::closest::Corners;
-use crate::kernels::{Buffer, Coordinate, Simd, dispatch};
-use crate::queries::{Batch, CallerIds, Kind, LeafTest, Needs};
-use crate::statistics::Statistics;
+use crate::kernels::{Coordinate, Simd};
+use crate::queries::{EdgeEdge, VertexTriangle};
+use crate::sort::Hit;
 use crate::threads::Interrupt;
 use pliant_exact::distance::Closest;
 
@@ -112,69 +112,32 @@ fn direction(closest: &Closest) -> Option<[f64; 3]> {
     (closest.distance != 0.0).then_some(closest.direction)
 }
 
-/// A kind of pairs that are at most some distance apart.
-pub(crate) trait CloseKind: Kind<Buffers = (), Hit: Measurable> {
-    /// The corners of a hit, in the order in which the caller has them.
-    fn callers_corners<'q>(
-        leaves: &LeafTest<'q, Self::Scalar>,
-        ids: &CallerIds,
-        hit: Self::TreeHit,
-    ) -> Option<<Self::Hit as Measurable>::Corners<'q, Self::Scalar>>;
-}
-
-/// Close pairs of a kind with what was measured of them.
-#[derive(Debug)]
-pub(crate) struct Measured<C>(pub(crate) C);
-
-impl<C: CloseKind> Kind for Measured<C> {
-    type Scalar = C::Scalar;
-    type Hit = <C::Hit as Measurable>::Close;
-    type TreeHit = C::TreeHit;
-    type Buffers = ();
-
-    fn needs(&self) -> Needs {
-        self.0.needs()
-    }
-
-    fn test(
-        &self,
-        leaves: &LeafTest<C::Scalar>,
-        batch: Batch,
-        buffers: &mut (),
-        hits: &mut Buffer<C::TreeHit>,
-        statistics: &mut Statistics,
-    ) {
-        self.0.test(leaves, batch, buffers, hits, statistics);
-    }
-
-    fn to_caller(&self, ids: &CallerIds, hit: C::TreeHit) -> Self::Hit {
-        self.0.to_caller(ids, hit).unmeasured()
-    }
-
-    fn to_callers(
-        &self,
-        leaves: &LeafTest<C::Scalar>,
-        ids: &CallerIds,
-        hits: &[C::TreeHit],
-        of_caller: &mut Vec<Self::Hit>,
-    ) {
-        dispatch!(leaves.instructions, i => {
-            for some in hits.chunks(4) {
-                let Some(first) = C::callers_corners(leaves, ids, some[0]) else {
-                    return;
-                };
-                let mut corners = [first; 4];
-                let mut of_some = [self.0.to_caller(ids, some[0]); 4];
-                for lane in 1..some.len() {
-                    corners[lane] = C::callers_corners(leaves, ids, some[lane]).unwrap_or(first);
-                    of_some[lane] = self.0.to_caller(ids, some[lane]);
-                }
-                let of_some = &of_some[..some.len()];
-                let take = |close| of_caller.push(close);
-                if !C::Hit::measure(i, of_some, &corners, leaves.interrupt, take) {
-                    return;
-                }
-            }
-        });
+/// Shows `take` hits with what is measured of them, in their order. `pair` says what each is as the
+/// caller numbers things, and `corners` where its corners are. Interrupted, or where there are none,
+/// it ends early.
+#[inline(always)]
+pub(crate) fn measure_all<'c, I: Simd, S: Coordinate, H: Measurable, T: Copy>(
+    i: I,
+    hits: &[T],
+    interrupt: &Interrupt,
+    (pair, mut corners): (impl Fn(T) -> H, impl FnMut(T) -> Option<H::Corners<'c, S>>),
+    mut take: impl FnMut(H::Close),
+) {
+    for some in hits.chunks(4) {
+        let mut four = None;
+        let mut pairs = [pair(some[0]); 4];
+        for (lane, &hit) in some.iter().enumerate() {
+            let Some(corners) = corners(hit) else {
+                return;
+            };
+            four.get_or_insert([corners; 4])[lane] = corners;
+            pairs[lane] = pair(hit);
+        }
+        let Some(corners) = &four else {
+            return;
+        };
+        if !H::measure(i, &pairs[..some.len()], corners, interrupt, &mut take) {
+            return;
+        }
     }
 }

@@ -7,11 +7,13 @@
 
 mod closest;
 mod elements;
+mod hit;
 mod measured;
 mod triangles;
 
 pub(super) use closest::primitives;
 pub(super) use elements::corners_at;
 pub(crate) use elements::{Close, ElementCandidates};
-pub(crate) use measured::{CloseKind, ElementPair, Measurable, Measured};
+pub use hit::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, ClosestFeatures};
+pub(crate) use measured::{ElementPair, Measurable, measure_all};
 pub(crate) use triangles::{NearTriangles, NearestPair, close, closest_of_triangles, corners_of};

@@ -5,17 +5,16 @@
 //! by exact arithmetic (`pliant_exact::distance`).
 
 use super::closest::{ACCURACY, half};
-use super::measured::{CloseKind, Measurable};
-use crate::close_pairs::CloseTriangles;
+use super::hit::CloseTriangles;
+use super::measured::{Measurable, measure_all};
 use crate::geometry::{Real, Shape};
-use crate::hits::Pair;
 use crate::ids::TreeTriangle;
 use crate::kernels::closest::{TwoClosest, apart_along, of_triangles};
-use crate::kernels::{Buffer, Coordinate, Instructions, Simd, dispatch};
+use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
 use crate::queries::{
-    Batch, CallerIds, Candidate, Intersections, Kind, LeafTest, Margin, Needs, OF_GROWN_SHAPES,
+    Batch, CallerIds, Candidate, FoundBy, Intersections, Kind, LeafTest, Margin, Needs,
+    OF_GROWN_SHAPES, Pair,
 };
-use crate::statistics::Statistics;
 use crate::threads::Interrupt;
 use pliant_exact::Triangle;
 use pliant_exact::barycentric;
@@ -132,25 +131,18 @@ fn closest<S: Real>(
     [a, b]: &[ThreeCorners<S>; 2],
     interrupt: &Interrupt,
 ) -> Option<TrianglesClosest> {
-    let TwoClosest {
-        which,
-        along,
-        way,
-        distance,
-        least,
-        most,
-    } = measured;
-    if most - least <= ACCURACY * distance {
+    let (which, along, distance) = (measured.which, measured.along, measured.distance);
+    if measured.most - measured.least <= ACCURACY * distance {
         return Some(TrianglesClosest {
             distance,
-            direction: way.map(|x| x / distance),
+            direction: measured.way.map(|x| x / distance),
             barycentric: barycentric(which, along),
         });
     }
     let known = SomePoints {
         which,
         along,
-        apart: most,
+        apart: measured.most,
     };
     (!interrupt.is_set()).then(|| closest_triangles(S::PRECISION, &exact(a), &exact(b), known))
 }
@@ -236,6 +228,7 @@ fn point<S: Real>(corners: &ThreeCorners<S>, counts: [f64; 3]) -> [f64; 3] {
 impl<S: Coordinate> Kind for NearTriangles<S> {
     type Scalar = S;
     type Hit = Pair;
+    type Shown = CloseTriangles;
     type TreeHit = Candidate;
     type Buffers = ();
 
@@ -247,16 +240,9 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
         }
     }
 
-    fn test(
-        &self,
-        leaves: &LeafTest<S>,
-        batch: Batch,
-        (): &mut (),
-        hits: &mut Buffer<Candidate>,
-        statistics: &mut Statistics,
-    ) {
+    fn test(&self, leaves: &LeafTest<S>, batch: Batch, found: &mut FoundBy<Self>) {
         let candidates = batch.triangles();
-        let before = hits.len();
+        let before = found.hits.len();
         dispatch!(leaves.instructions, i => {
             for &[a, b] in candidates.as_slice() {
                 if leaves.interrupt.is_set() {
@@ -264,19 +250,34 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
                 }
                 let corners = [corners_of(leaves.shapes[0], a), corners_of(leaves.shapes[1], b)];
                 let measured = of_triangles(i, &corners[0], &corners[1]);
-                let exact = &mut statistics.exact_decisions;
+                let exact = &mut found.statistics.exact_decisions;
                 if is_within(&measured, &corners, self.distance, exact) {
-                    hits.push([a, b]);
+                    found.hits.push([a, b]);
                 }
             }
         });
-        statistics.candidate_pairs += candidates.len() as u64;
-        statistics.pairs += (hits.len() - before) as u64;
+        found.statistics.candidate_pairs += candidates.len() as u64;
+        found.statistics.pairs += (found.hits.len() - before) as u64;
     }
 
     #[inline]
     fn to_caller(&self, ids: &CallerIds, candidate: Candidate) -> Pair {
         Intersections::<S>::default().to_caller(ids, candidate)
+    }
+
+    fn show(&self, leaves: &LeafTest<S>, hits: &[Candidate], shown: &mut Vec<CloseTriangles>) {
+        let [first, second] = leaves.shapes;
+        let order = leaves.ids.orders[0];
+        let corners = |[a, b]: Candidate| {
+            let mut corners = [corners_of(first, a), corners_of(second, b)];
+            if leaves.is_one_body && order.caller_triangle(b) < order.caller_triangle(a) {
+                corners.swap(0, 1);
+            }
+            Some(corners)
+        };
+        let what = (|hit| self.to_caller(&leaves.ids, hit), corners);
+        let (how, interrupt) = (leaves.instructions, leaves.interrupt);
+        dispatch!(how, i => measure_all(i, hits, interrupt, what, |close| shown.push(close)));
     }
 }
 
@@ -292,28 +293,6 @@ fn is_within<S: Real>(
     }
     *exact_decisions += 1;
     are_triangles_within(S::PRECISION, &exact(a), &exact(b), distance)
-}
-
-impl<S: Coordinate> CloseKind for NearTriangles<S> {
-    fn callers_corners<'q>(
-        leaves: &LeafTest<'q, S>,
-        ids: &CallerIds,
-        [a, b]: Candidate,
-    ) -> Option<[ThreeCorners<'q, S>; 2]> {
-        let both = [
-            corners_of(leaves.shapes[0], a),
-            corners_of(leaves.shapes[1], b),
-        ];
-        let is_swapped = || {
-            let order = ids.orders[0];
-            order.caller_triangle(b) < order.caller_triangle(a)
-        };
-        Some(if leaves.is_one_body && is_swapped() {
-            [both[1], both[0]]
-        } else {
-            both
-        })
-    }
 }
 
 #[cfg(test)]

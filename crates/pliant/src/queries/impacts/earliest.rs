@@ -4,7 +4,7 @@
 //! in whatever order contacts come. Its time bounds what is of interest, and may become smaller at any moment: what is surely later is left
 //! out, and what is surely not earlier, if it is behind it in order.
 
-use crate::impacts::Impact;
+use super::hit::Impact;
 use pliant_exact::motion::{Certain, Contact, Decided, Grid, Moving, first_contact, quick};
 use std::cmp::Ordering::Less;
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -5,16 +5,19 @@
 //! (`pliant_exact::motion`). What is found of a pair is its cell of a grid of times, which depends on nothing but the pair.
 
 mod earliest;
+mod hit;
 
 use super::close::{ElementCandidates, ElementPair, corners_at, primitives};
-use super::{Batch, CallerIds, Kind, LeafTest, Needs, Reach};
+use super::{
+    Batch, CallerIds, EdgeEdge, Found, FoundBy, Kind, LeafTest, Needs, Reach, VertexTriangle,
+    shows_hits,
+};
 use crate::geometry::Real;
-use crate::hits::{EdgeEdge, VertexTriangle};
-use crate::impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 use crate::kernels::apart::{MovingCorners, apart};
 use crate::kernels::{Buffer, Simd, dispatch};
 use crate::statistics::Statistics;
 pub(crate) use earliest::{Earliest, First};
+pub use hit::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 use pliant_exact::distance::are_within_distance;
 use pliant_exact::motion::{Decided, Grid, Moving, distant_until, impact, starts_surely_within};
 
@@ -46,31 +49,22 @@ pub(crate) trait MayMeet: ElementPair {
     fn impact(self, cell: [f64; 2]) -> Self::Impact;
 }
 
-impl MayMeet for VertexTriangle {
-    type Impact = VertexTriangleImpact;
+macro_rules! may_meet {
+    ($pair:ty => $impact:ident) => {
+        impl MayMeet for $pair {
+            type Impact = $impact;
 
-    #[inline]
-    fn impact(self, [low, high]: [f64; 2]) -> VertexTriangleImpact {
-        VertexTriangleImpact {
-            pair: self,
-            low,
-            high,
+            #[inline]
+            fn impact(self, [low, high]: [f64; 2]) -> $impact {
+                let pair = self;
+                $impact { pair, low, high }
+            }
         }
-    }
+    };
 }
 
-impl MayMeet for EdgeEdge {
-    type Impact = EdgeEdgeImpact;
-
-    #[inline]
-    fn impact(self, [low, high]: [f64; 2]) -> EdgeEdgeImpact {
-        EdgeEdgeImpact {
-            pair: self,
-            low,
-            high,
-        }
-    }
-}
+may_meet!(VertexTriangle => VertexTriangleImpact);
+may_meet!(EdgeEdge => EdgeEdgeImpact);
 
 impl<K> Impacts<K> {
     /// Of candidates whose margin is zero.
@@ -110,7 +104,9 @@ impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
     type Hit = <K::Hit as MayMeet>::Impact;
     type TreeHit = TimedHit;
     /// Candidates.
-    type Buffers = Buffer<[u32; 2]>;
+    type Buffers = FoundBy<K>;
+
+    shows_hits!();
 
     fn needs(&self) -> Needs {
         Needs {
@@ -119,24 +115,20 @@ impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
         }
     }
 
-    fn test(
-        &self,
-        leaves: &LeafTest<K::Scalar>,
-        batch: Batch,
-        candidates: &mut Buffer<[u32; 2]>,
-        hits: &mut Buffer<TimedHit>,
-        statistics: &mut Statistics,
-    ) {
-        let before = *statistics;
-        candidates.clear();
-        self.candidates
-            .test(leaves, batch, &mut (), candidates, statistics);
-        // Of impacts, not of candidates.
-        statistics.pairs = before.pairs;
-        statistics.exact_decisions = before.exact_decisions;
+    fn test(&self, leaves: &LeafTest<K::Scalar>, batch: Batch, found: &mut FoundBy<Self>) {
+        let Found {
+            hits,
+            statistics,
+            buffers: candidates,
+        } = found;
+        candidates.hits.clear();
+        candidates.statistics = Statistics::default();
+        self.candidates.test(leaves, batch, candidates);
+        // Pairs and exact decisions are those of impacts.
+        statistics.candidate_pairs += candidates.statistics.candidate_pairs;
         let until = self.earliest.until();
-        let used = candidates.len();
-        let eights = candidates.eights();
+        let used = candidates.hits.len();
+        let eights = candidates.hits.eights();
         dispatch!(leaves.instructions, i => {
             for (place, eight) in eights.iter().enumerate() {
                 let count = (used - 8 * place).min(8);
@@ -167,14 +159,14 @@ impl<K: ElementCandidates<Hit: MayMeet>> Impacts<K> {
         statistics: &mut Statistics,
     ) -> Option<()> {
         let first = moving_corners::<K>(leaves, candidates[0])?;
-        let mut corners = MovingCorners([[first[0]; 8]; 8]);
+        let mut corners = [[first[0]; 8]; 8];
         for lane in 0..8 {
             let of_lane = match candidates.get(lane) {
                 Some(&candidate) if lane > 0 => moving_corners::<K>(leaves, candidate)?,
                 _ => first,
             };
             for corner in 0..8 {
-                corners.0[corner][lane] = of_lane[corner];
+                corners[corner][lane] = of_lane[corner];
             }
         }
         let until_at_least = (until as f32).next_up().min(1.0);
@@ -262,7 +254,7 @@ fn moving<K: ElementCandidates<Hit: MayMeet>>(
 ) -> Moving {
     let mut of_pair = [[[0.0; 3]; 4]; 2];
     for corner in 0..8 {
-        let [x, y, z, _] = *corners.0[corner][lane];
+        let [x, y, z, _] = *corners[corner][lane];
         of_pair[corner / 4][corner % 4] = [x, y, z].map(Real::to_f64);
     }
     Moving {

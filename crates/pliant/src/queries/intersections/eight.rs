@@ -37,7 +37,7 @@ struct Crossing {
 
 /// Decides candidates, and appends those that intersect to `hits`; the order depends on nothing but the candidates. Returns how many of
 /// them, the first, are known to cross, by signs that are not zero.
-pub(super) fn decide<S: Coordinate>(
+pub(in crate::queries) fn decide<S: Coordinate>(
     leaves: &LeafTest<S>,
     candidates: &mut Buffer<Candidate>,
     undecided: &mut Undecided,
@@ -134,30 +134,9 @@ fn keep(candidates: &[Candidate; 8], lanes: u8, kept: &mut Buffer<Candidate>) {
     }
 }
 
-/// By which of three corners lie above a plane (not none or all, which are never asked for): the order that puts the one first
-/// that is alone on its side, seen from one side of the triangle and from the other.
-const ALONE_FIRST: [[[u8; 3]; 8]; 2] = [
-    [
-        [0, 1, 2],
-        [0, 1, 2],
-        [1, 2, 0],
-        [2, 0, 1],
-        [2, 0, 1],
-        [1, 2, 0],
-        [0, 1, 2],
-        [0, 1, 2],
-    ],
-    [
-        [0, 2, 1],
-        [0, 2, 1],
-        [1, 0, 2],
-        [2, 1, 0],
-        [2, 1, 0],
-        [1, 0, 2],
-        [0, 2, 1],
-        [0, 2, 1],
-    ],
-];
+/// By which of three corners lie above a plane (not none or all, which are never asked for): the
+/// one that is alone on its side.
+const ALONE: [usize; 8] = [0, 0, 1, 2, 2, 1, 0, 0];
 
 /// Bit `above` is set if the corner that is alone lies below.
 const ALONE_IS_BELOW: u8 = 1 << 3 | 1 << 5 | 1 << 6;
@@ -169,12 +148,12 @@ const IN_ORDER: [[u8; 6]; 64] = {
     while above < 64 {
         let (above_a, above_b) = (above & 7, above >> 3);
         // The corner of the other that is alone is to lie above; a triangle seen from its other side is the same triangle.
-        let order_a = ALONE_FIRST[(ALONE_IS_BELOW >> above_b & 1) as usize][above_a];
-        let order_b = ALONE_FIRST[(ALONE_IS_BELOW >> above_a & 1) as usize][above_b];
+        let turn_a = 1 + (ALONE_IS_BELOW >> above_b & 1) as usize;
+        let turn_b = 1 + (ALONE_IS_BELOW >> above_a & 1) as usize;
         let mut corner = 0;
         while corner < 3 {
-            orders[above][corner] = order_a[corner];
-            orders[above][3 + corner] = 3 + order_b[corner];
+            orders[above][corner] = ((ALONE[above_a] + turn_a * corner) % 3) as u8;
+            orders[above][3 + corner] = 3 + ((ALONE[above_b] + turn_b * corner) % 3) as u8;
             corner += 1;
         }
         above += 1;

@@ -1,29 +1,25 @@
 //! Triangles that intersect, as closed sets: exactly, as `pliant_exact` says, on the shape of now.
 //!
 //! Within a body, triangles that share a vertex of the mesh are left out: they always touch. `eight` decides candidates side by side on
-//! signs that single precision makes certain, and leaves few to `pliant_exact`. `contacts` tells how pairs intersect, if that is asked.
+//! signs that single precision makes certain, and leaves few to `pliant_exact`.
 
-mod contacts;
-mod eight;
+pub(super) mod eight;
+mod hit;
 
-pub(crate) use contacts::Contacts;
-
-use super::{Batch, CallerIds, Candidate, Kind, LeafTest, Needs};
-use crate::Pair;
-use crate::kernels::{Buffer, Coordinate};
-use crate::statistics::Statistics;
+use super::{Batch, CallerIds, Candidate, FoundBy, Kind, LeafTest, Needs, shows_hits};
+use crate::held::empty;
+use crate::kernels::Coordinate;
 use eight::Undecided;
+pub use hit::Pair;
 use std::marker::PhantomData;
 
 /// Pairs of triangles that intersect.
 #[derive(Debug)]
-pub(crate) struct Intersections<S>(PhantomData<S>);
-
-impl<S> Default for Intersections<S> {
-    fn default() -> Self {
-        Self(PhantomData)
-    }
+pub(crate) struct Intersections<S> {
+    scalar: PhantomData<S>,
 }
+
+empty!(Intersections<S>: scalar);
 
 impl<S: Coordinate> Kind for Intersections<S> {
     type Scalar = S;
@@ -31,19 +27,16 @@ impl<S: Coordinate> Kind for Intersections<S> {
     type TreeHit = Candidate;
     type Buffers = Undecided;
 
+    shows_hits!();
+
     fn needs(&self) -> Needs {
         Needs::TRIANGLES
     }
 
-    fn test(
-        &self,
-        leaves: &LeafTest<S>,
-        batch: Batch,
-        undecided: &mut Undecided,
-        hits: &mut Buffer<Candidate>,
-        statistics: &mut Statistics,
-    ) {
-        eight::decide(leaves, batch.triangles(), undecided, hits, statistics);
+    fn test(&self, leaves: &LeafTest<S>, batch: Batch, found: &mut FoundBy<Self>) {
+        let candidates = batch.triangles();
+        let (undecided, statistics) = (&mut found.buffers, &mut found.statistics);
+        eight::decide(leaves, candidates, undecided, &mut found.hits, statistics);
     }
 
     #[inline]

@@ -132,7 +132,7 @@ impl<const C: usize> RunBoxes<C> {
                 most: 0.0,
             }
         });
-        let make = |_, job: &mut Job<C>| {
+        let make = |job: &mut Job<C>| {
             dispatch!(instructions, i => {
                 let mut rest = &mut *job.eights;
                 for run in &mut *job.runs {
@@ -148,17 +148,8 @@ impl<const C: usize> RunBoxes<C> {
                 }
             });
         };
-        self.most = if executor.are_many() {
-            let mut jobs: Vec<Job<C>> = jobs.collect();
-            executor.run(&mut jobs, make);
-            jobs.iter().fold(0.0, |most, job| larger(most, job.most))
-        } else {
-            // Without a list of them, which a step would allocate.
-            jobs.fold(0.0, |most, mut job| {
-                executor.run(std::slice::from_mut(&mut job), make);
-                larger(most, job.most)
-            })
-        };
+        self.most = 0.0;
+        executor.run_each(jobs, make, |job| self.most = larger(self.most, job.most));
         if executor.is_interrupted() {
             return false;
         }

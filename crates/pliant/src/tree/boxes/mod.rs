@@ -16,7 +16,7 @@ use crate::held::{self, held};
 use crate::ids::{BlockId, LeafId, WideNodeId};
 use crate::kernels::{BoxLanes, EightBoxes, QuantizedLanes};
 pub(crate) use lanes::{NodeLanes, of_degree};
-pub(crate) use source::{BoxSource, Grown, Source, Swept, Version, of_source};
+pub(crate) use source::{BoxSource, Grown, Over, Source, Version, of_source};
 
 /// Before every stamp.
 const NEVER: u64 = 0;
@@ -254,18 +254,14 @@ impl<'b, const N: usize> NodesMut<'b, N> {
         let place = wide_node.index() - self.first;
         let (boxes, later_boxes) = self.boxes.split_at_mut(place);
         let (stamps, later_stamps) = self.stamps.split_at_mut(place);
-        let later = Self {
-            first: wide_node.index(),
-            boxes: later_boxes,
-            stamps: later_stamps,
+        let run = |first, boxes, stamps| Self {
+            first,
+            boxes,
+            stamps,
         };
         [
-            Self {
-                boxes,
-                stamps,
-                ..self
-            },
-            later,
+            run(self.first, boxes, stamps),
+            run(wide_node.index(), later_boxes, later_stamps),
         ]
     }
 }

@@ -12,14 +12,13 @@ use crate::geometry::{Aabb, Bounds, Shape};
 use crate::ids::TreeVertex;
 use crate::kernels::extent::{self, Extent, TWELVE};
 use crate::kernels::{Coordinate, Simd};
-use std::ops::Range;
 
 /// Which boxes a source gives: two sources of one body give the same if they have the same version.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Version {
-    /// The epoch of the shape,
+    /// The version of the shape,
     shape: u64,
-    /// and, where boxes hold a second shape as well, that of the second; 0 is before every epoch.
+    /// and, where boxes hold a second shape as well, that of the second; 0 is before every version.
     second: u64,
     /// The bits of the distance by which boxes are grown.
     grown_by: u32,
@@ -32,6 +31,17 @@ impl Version {
     }
 }
 
+/// Vertices that one box is over.
+#[derive(Clone, Copy)]
+pub(crate) enum Over<'v> {
+    /// A run of vertices, from the first to the end, and some others; there is one at least.
+    Run([usize; 2], &'v [TreeVertex]),
+    /// Twelve vertices: as many as most leaves have.
+    Twelve(&'v [TreeVertex; TWELVE]),
+    /// The corners of a triangle.
+    Triangle([TreeVertex; 3]),
+}
+
 /// Gives the box over any vertices of a body.
 pub(crate) trait BoxSource: Sync {
     type Scalar: Coordinate;
@@ -41,16 +51,10 @@ pub(crate) trait BoxSource: Sync {
 
     fn version(&self) -> Version;
 
-    /// The box over a run of vertices and some others; there is one at least.
-    fn over<I: Simd>(&self, i: I, run: Range<usize>, others: &[TreeVertex]) -> Extent<I>;
+    /// The box over some vertices.
+    fn over<I: Simd>(&self, i: I, vertices: Over) -> Extent<I>;
 
-    /// The box over twelve vertices: as many as most leaves have.
-    fn over_twelve<I: Simd>(&self, i: I, vertices: &[TreeVertex; TWELVE]) -> Extent<I>;
-
-    /// The box over the corners of a triangle.
-    fn over_triangle<I: Simd>(&self, i: I, corners: [TreeVertex; 3]) -> Extent<I>;
-
-    /// What all of these mean, one vertex after the other.
+    /// The meaning of that, one vertex after the other.
     fn plainly(&self, vertices: impl Iterator<Item = TreeVertex> + Clone) -> Aabb;
 }
 
@@ -64,24 +68,18 @@ impl<S: Coordinate> BoxSource for Shape<'_, S> {
 
     fn version(&self) -> Version {
         Version {
-            shape: self.epoch,
+            shape: self.version,
             ..Version::default()
         }
     }
 
     #[inline(always)]
-    fn over<I: Simd>(&self, i: I, run: Range<usize>, others: &[TreeVertex]) -> Extent<I> {
-        extent::of_points(i, self, run, others)
-    }
-
-    #[inline(always)]
-    fn over_twelve<I: Simd>(&self, i: I, vertices: &[TreeVertex; TWELVE]) -> Extent<I> {
-        extent::of_twelve(i, self, vertices)
-    }
-
-    #[inline(always)]
-    fn over_triangle<I: Simd>(&self, i: I, corners: [TreeVertex; 3]) -> Extent<I> {
-        extent::of_corners(i, self, corners)
+    fn over<I: Simd>(&self, i: I, vertices: Over) -> Extent<I> {
+        match vertices {
+            Over::Run([start, end], others) => extent::of_points(i, self, start..end, others),
+            Over::Twelve(vertices) => extent::of_twelve(i, self, vertices),
+            Over::Triangle(corners) => extent::of_corners(i, self, corners),
+        }
     }
 
     fn plainly(&self, vertices: impl Iterator<Item = TreeVertex> + Clone) -> Aabb {
@@ -91,63 +89,17 @@ impl<S: Coordinate> BoxSource for Shape<'_, S> {
     }
 }
 
-/// Boxes of another source, grown by a distance on every side, and a little more where that is not exact.
+/// Boxes that hold a shape and the one at the end of a motion, if there is one, grown by a distance
+/// on every side, and a little more where that is not exact.
 #[derive(Clone, Copy)]
-pub(crate) struct Grown<B> {
-    pub(crate) source: B,
+pub(crate) struct Grown<'s, S> {
+    pub(crate) from: Shape<'s, S>,
+    pub(crate) to: Option<Shape<'s, S>>,
     /// At least 0, and finite.
     pub(crate) distance: f32,
 }
 
-impl<B> Grown<B> {
-    #[inline(always)]
-    fn grow<I: Simd>(&self, i: I, known: Extent<I>) -> Extent<I> {
-        extent::grown(i, known, self.distance)
-    }
-}
-
-impl<B: BoxSource> BoxSource for Grown<B> {
-    type Scalar = B::Scalar;
-
-    fn shape(&self) -> &Shape<'_, B::Scalar> {
-        self.source.shape()
-    }
-
-    fn version(&self) -> Version {
-        Version {
-            grown_by: self.distance.to_bits(),
-            ..self.source.version()
-        }
-    }
-
-    #[inline(always)]
-    fn over<I: Simd>(&self, i: I, run: Range<usize>, others: &[TreeVertex]) -> Extent<I> {
-        self.grow(i, self.source.over(i, run, others))
-    }
-
-    #[inline(always)]
-    fn over_twelve<I: Simd>(&self, i: I, vertices: &[TreeVertex; TWELVE]) -> Extent<I> {
-        self.grow(i, self.source.over_twelve(i, vertices))
-    }
-
-    #[inline(always)]
-    fn over_triangle<I: Simd>(&self, i: I, corners: [TreeVertex; 3]) -> Extent<I> {
-        self.grow(i, self.source.over_triangle(i, corners))
-    }
-
-    fn plainly(&self, vertices: impl Iterator<Item = TreeVertex> + Clone) -> Aabb {
-        self.source.plainly(vertices).grown(self.distance)
-    }
-}
-
-/// Boxes that hold the shapes at both ends of a motion; of a body that stands still, its shape.
-#[derive(Clone, Copy)]
-pub(crate) struct Swept<'s, S> {
-    pub(crate) from: Shape<'s, S>,
-    pub(crate) to: Option<Shape<'s, S>>,
-}
-
-impl<S: Coordinate> BoxSource for Swept<'_, S> {
+impl<S: Coordinate> BoxSource for Grown<'_, S> {
     type Scalar = S;
 
     #[inline(always)]
@@ -157,44 +109,27 @@ impl<S: Coordinate> BoxSource for Swept<'_, S> {
 
     fn version(&self) -> Version {
         Version {
-            second: self.to.map_or(0, |to| to.epoch),
+            second: self.to.map_or(0, |to| to.version),
+            grown_by: self.distance.to_bits(),
             ..self.from.version()
         }
     }
 
     #[inline(always)]
-    fn over<I: Simd>(&self, i: I, run: Range<usize>, others: &[TreeVertex]) -> Extent<I> {
-        let from = self.from.over(i, run.clone(), others);
-        match &self.to {
-            Some(to) => extent::union(from, to.over(i, run, others)),
-            None => from,
+    fn over<I: Simd>(&self, i: I, vertices: Over) -> Extent<I> {
+        let mut both = self.from.over(i, vertices);
+        if let Some(to) = &self.to {
+            both = extent::union(both, to.over(i, vertices));
         }
-    }
-
-    #[inline(always)]
-    fn over_twelve<I: Simd>(&self, i: I, vertices: &[TreeVertex; TWELVE]) -> Extent<I> {
-        let from = self.from.over_twelve(i, vertices);
-        match &self.to {
-            Some(to) => extent::union(from, to.over_twelve(i, vertices)),
-            None => from,
-        }
-    }
-
-    #[inline(always)]
-    fn over_triangle<I: Simd>(&self, i: I, corners: [TreeVertex; 3]) -> Extent<I> {
-        let from = self.from.over_triangle(i, corners);
-        match &self.to {
-            Some(to) => extent::union(from, to.over_triangle(i, corners)),
-            None => from,
-        }
+        extent::grown(i, both, self.distance)
     }
 
     fn plainly(&self, vertices: impl Iterator<Item = TreeVertex> + Clone) -> Aabb {
-        let from = self.from.plainly(vertices.clone());
-        match &self.to {
-            Some(to) => from.union(&to.plainly(vertices)),
-            None => from,
+        let mut both = self.from.plainly(vertices.clone());
+        if let Some(to) = &self.to {
+            both = both.union(&to.plainly(vertices));
         }
+        both.grown(self.distance)
     }
 }
 
@@ -204,7 +139,7 @@ impl<S: Coordinate> BoxSource for Swept<'_, S> {
 #[derive(Clone, Copy)]
 pub(crate) enum Source<'s, S> {
     Shape(Shape<'s, S>),
-    Grown(Grown<Swept<'s, S>>),
+    Grown(Grown<'s, S>),
 }
 
 /// Compiles an expression for every source.
@@ -220,28 +155,16 @@ pub(crate) use of_source;
 
 impl<'s, S: Coordinate> Source<'s, S> {
     /// Boxes that are grown hold the end of a motion, if there is one.
-    pub(crate) fn new(
-        shape: Shape<'s, S>,
-        end: Option<Shape<'s, S>>,
-        grows_by: Option<f32>,
-    ) -> Self {
-        match grows_by {
-            None => Self::Shape(shape),
-            Some(distance) => Self::Grown(Grown {
-                source: Swept {
-                    from: shape,
-                    to: end,
-                },
-                distance,
-            }),
-        }
+    pub(crate) fn new(from: Shape<'s, S>, to: Option<Shape<'s, S>>, grows_by: Option<f32>) -> Self {
+        let grown = |distance| Grown { from, to, distance };
+        grows_by.map_or(Self::Shape(from), |distance| Self::Grown(grown(distance)))
     }
 
     #[inline]
     pub(crate) fn shape(&self) -> &Shape<'s, S> {
         match self {
             Self::Shape(shape) => shape,
-            Self::Grown(grown) => &grown.source.from,
+            Self::Grown(grown) => &grown.from,
         }
     }
 
@@ -250,7 +173,7 @@ impl<'s, S: Coordinate> Source<'s, S> {
     pub(crate) fn end(&self) -> Option<&Shape<'s, S>> {
         match self {
             Self::Shape(_) => None,
-            Self::Grown(grown) => grown.source.to.as_ref(),
+            Self::Grown(grown) => grown.to.as_ref(),
         }
     }
 
@@ -275,13 +198,16 @@ mod tests {
             dispatch!(instructions, i => {
                 for (run, others) in [(4..9, &[][..]), (0..40, &[]), (2..2, &[1]), (5..6, &[0, 8]), (0..3, &[7, 5, 9, 11, 30])] {
                     let others = vertices(others);
-                    let run_of = run.clone().map(|vertex| TreeVertex(vertex as u32));
+                    let run_of = (run.start..run.end).map(|vertex| TreeVertex(vertex as u32));
                     let expected = source.plainly(run_of.chain(others.iter().copied()));
-                    assert_eq!(extent::to_box(source.over(i, run, &others)), expected);
+                    let found = source.over(i, Over::Run([run.start, run.end], &others));
+                    assert_eq!(extent::to_box(found), expected);
                 }
-                assert_eq!(extent::to_box(source.over_twelve(i, &twelve)), source.plainly(twelve.into_iter()));
+                let found = extent::to_box(source.over(i, Over::Twelve(&twelve)));
+                assert_eq!(found, source.plainly(twelve.into_iter()));
                 let corners = [7, 2, 2].map(TreeVertex);
-                assert_eq!(extent::to_box(source.over_triangle(i, corners)), source.plainly(corners.into_iter()));
+                let found = extent::to_box(source.over(i, Over::Triangle(corners)));
+                assert_eq!(found, source.plainly(corners.into_iter()));
             });
         }
     }
@@ -293,39 +219,32 @@ mod tests {
             Points::of((0..40).map(wave))
         };
         let [from, to] = [shape_at(0.0), shape_at(0.8)];
-        let shape = |positions, epoch| Shape {
+        let shape = |positions, version| Shape {
             positions,
             triangles: &[],
             origin,
-            epoch,
+            version,
         };
         let (from, to) = (shape(&from, 3), shape(&to, 7));
         check(&from);
-        let still = Swept { from, to: None };
-        check(&still);
-        assert_eq!(still.version(), from.version());
-        let hull = Swept { from, to: Some(to) };
-        check(&hull);
         for distance in [0.0, 0.1, 1e6] {
-            let grown = |source| Grown { source, distance };
-            check(&grown(from));
-            let swept = Grown {
-                source: hull,
-                distance,
-            };
+            let grown = |to| Grown { from, to, distance };
+            let (still, swept) = (grown(None), grown(Some(to)));
+            check(&still);
             check(&swept);
             // A box holds what it is grown from, by the distance at least.
             let vertices = || (0..9).map(TreeVertex);
-            let (inner, outer) = (hull.plainly(vertices()), swept.plainly(vertices()));
+            let inner = from.plainly(vertices()).union(&to.plainly(vertices()));
+            let outer = swept.plainly(vertices());
             for axis in 0..3 {
                 let below = f64::from(inner.lo[axis]) - f64::from(outer.lo[axis]);
                 let above = f64::from(outer.hi[axis]) - f64::from(inner.hi[axis]);
                 assert!(below.min(above) >= f64::from(distance));
             }
             // Versions tell them apart, but for boxes that are grown by nothing.
-            assert_ne!(from.version(), hull.version());
-            assert_ne!(grown(from).version(), swept.version());
-            assert_eq!(from.version() == grown(from).version(), distance == 0.0);
+            assert_ne!(from.version(), swept.version());
+            assert_ne!(still.version(), swept.version());
+            assert_eq!(from.version() == still.version(), distance == 0.0);
         }
     }
 

@@ -5,9 +5,9 @@
 //! halving the midpoints are divided along the longest side of their box, at the multiple of c nearest the middle. Not in
 //! the paper, whose trees are cut at points of space; on surfaces those leave about half of eight lanes empty.
 
-use super::Split;
 use super::initial_shape::midpoint;
-use crate::geometry::{Real, larger, smaller};
+use super::{Pieces, Split};
+use crate::geometry::{Bounds, Real};
 use crate::held;
 use crate::threads::Budget;
 
@@ -58,25 +58,16 @@ impl Balanced {
 
     /// Orders the triangles so that the first `left` have the smaller midpoints along the longest side.
     fn divide(&mut self, triangles: &mut [u32], left: usize) {
-        let Self {
-            midpoints, keys, ..
-        } = self;
-        let mut lo = [f64::INFINITY; 3];
-        let mut hi = [f64::NEG_INFINITY; 3];
+        let (midpoints, keys) = (&self.midpoints, &mut self.keys);
+        let midpoint = |triangle: u32| midpoints[triangle as usize];
+        let mut bounds = Bounds::EMPTY;
         for &triangle in &*triangles {
-            let midpoint = midpoints[triangle as usize];
-            for axis in 0..3 {
-                lo[axis] = smaller(lo[axis], midpoint[axis]);
-                hi[axis] = larger(hi[axis], midpoint[axis]);
-            }
+            bounds.include(midpoint(triangle));
         }
-        let axis = super::axes_by_length(lo, hi)[0];
+        let axis = super::axes_by_length(bounds.lo, bounds.hi)[0];
+        let in_order = triangles.iter();
         keys.clear();
-        keys.extend(
-            triangles
-                .iter()
-                .map(|&triangle| key(midpoints[triangle as usize][axis], triangle)),
-        );
+        keys.extend(in_order.map(|&triangle| key(midpoint(triangle)[axis], triangle)));
         keys.select_nth_unstable(left);
         for (triangle, key) in triangles.iter_mut().zip(&*keys) {
             *triangle = *key as u32;
@@ -102,12 +93,7 @@ impl Split for Balanced {
         held::list(&self.midpoints) + held::list(&self.keys)
     }
 
-    fn split(
-        &mut self,
-        triangles: &mut [u32],
-        pieces: &mut Vec<usize>,
-        budget: &mut Budget,
-    ) -> bool {
+    fn split(&mut self, triangles: &mut [u32], pieces: &mut Pieces, budget: &mut Budget) -> bool {
         let capacity = self.capacity(triangles.len());
         if self.halves.is_empty() {
             let children = triangles.len().div_ceil(capacity);

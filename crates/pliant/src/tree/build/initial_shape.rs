@@ -4,7 +4,7 @@
 //! The point is the centre of the box, which the paper prefers, or the mean of the triangles' midpoints. A surface meets
 //! about four octants of a cube, so on surfaces about half of eight lanes stay empty; `Balanced` fills them.
 
-use super::Split;
+use super::{Pieces, Split};
 use crate::geometry::{Bounds, Real};
 use crate::held;
 use crate::threads::Budget;
@@ -75,12 +75,7 @@ impl<S: Real> Split for InitialShape<'_, S> {
         size_of_val(&*self.triangles) + size_of_val(&*self.positions) + held::list(&self.volumes)
     }
 
-    fn split(
-        &mut self,
-        triangles: &mut [u32],
-        pieces: &mut Vec<usize>,
-        budget: &mut Budget,
-    ) -> bool {
+    fn split(&mut self, triangles: &mut [u32], pieces: &mut Pieces, budget: &mut Budget) -> bool {
         let count = triangles.len();
         while self.seen < count {
             if budget.is_spent() {

@@ -63,18 +63,16 @@ pub(crate) struct Part {
     pub(crate) level: u32,
 }
 
+/// How long the pieces of a part are, in order.
+pub(crate) type Pieces = Vec<usize>;
+
 /// A rule for dividing triangles.
 pub(crate) trait Split {
     /// Reorders `triangles` (caller's numbers, more than `leaf_size` of them) and appends the lengths of the pieces they fall
     /// into: at most the degree, none empty, in order. One piece means that the rule cannot tell the triangles apart.
     ///
     /// Returns whether that is done. If not, the budget is spent, and it is called again with the same triangles and pieces.
-    fn split(
-        &mut self,
-        triangles: &mut [u32],
-        pieces: &mut Vec<usize>,
-        budget: &mut Budget,
-    ) -> bool;
+    fn split(&mut self, triangles: &mut [u32], pieces: &mut Pieces, budget: &mut Budget) -> bool;
 
     /// Bytes that it holds.
     fn held(&self) -> usize {
@@ -97,7 +95,7 @@ pub(crate) struct Planner<R> {
     next: usize,
     /// Whether its split was begun, and the pieces it has so far.
     is_begun: bool,
-    pieces: Vec<usize>,
+    pieces: Pieces,
 }
 
 impl<R: Split> Planner<R> {
@@ -123,21 +121,16 @@ impl<R: Split> Planner<R> {
 
     /// Goes on; returns whether all parts are divided.
     pub(crate) fn advance(&mut self, budget: &mut Budget) -> bool {
-        let Plan {
-            order,
-            parts,
-            leaf_size,
-            degree,
-        } = &mut self.plan;
-        while self.next < parts.len() {
+        let plan = &mut self.plan;
+        while self.next < plan.parts.len() {
             if budget.is_spent() {
                 return false;
             }
             let Part {
                 triangles, level, ..
-            } = parts[self.next].clone();
-            if triangles.len() > *leaf_size as usize {
-                let run = &mut order[triangles.start as usize..triangles.end as usize];
+            } = plan.parts[self.next].clone();
+            if triangles.len() > plan.leaf_size as usize {
+                let run = &mut plan.order[triangles.start as usize..triangles.end as usize];
                 if !self.is_begun {
                     self.pieces.clear();
                 }
@@ -146,14 +139,14 @@ impl<R: Split> Planner<R> {
                     return false;
                 }
                 if self.pieces.len() == 1 {
-                    cut_the_order(run.len(), *degree, &mut self.pieces);
+                    cut_the_order(run.len(), plan.degree, &mut self.pieces);
                 }
-                let first = parts.len() as u32;
-                parts[self.next].children = first..first + self.pieces.len() as u32;
+                let first = plan.parts.len() as u32;
+                plan.parts[self.next].children = first..first + self.pieces.len() as u32;
                 let mut start = triangles.start;
                 for &length in &self.pieces {
                     let end = start + length as u32;
-                    parts.push(Part {
+                    plan.parts.push(Part {
                         triangles: start..end,
                         children: 0..0,
                         level: level + 1,
@@ -174,12 +167,7 @@ impl<R: Split> Planner<R> {
 }
 
 impl Split for Box<dyn Split + Send + Sync> {
-    fn split(
-        &mut self,
-        triangles: &mut [u32],
-        pieces: &mut Vec<usize>,
-        budget: &mut Budget,
-    ) -> bool {
+    fn split(&mut self, triangles: &mut [u32], pieces: &mut Pieces, budget: &mut Budget) -> bool {
         (**self).split(triangles, pieces, budget)
     }
 
@@ -197,7 +185,7 @@ impl<R: Split> Held for Planner<R> {
 }
 
 /// Equal pieces of an order nobody can improve.
-fn cut_the_order(count: usize, degree: usize, pieces: &mut Vec<usize>) {
+fn cut_the_order(count: usize, degree: usize, pieces: &mut Pieces) {
     pieces.clear();
     let most = degree.min(count);
     pieces.extend((0..most).map(|piece| (piece + 1) * count / most - piece * count / most));

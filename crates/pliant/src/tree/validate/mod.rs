@@ -10,6 +10,15 @@ use connectedness::Connectedness;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+/// Says what is wrong, unless this holds.
+macro_rules! ensure {
+    ($holds:expr, $($wrong:tt)+) => {
+        if !$holds {
+            return Err(format!($($wrong)+));
+        }
+    };
+}
+
 impl Tree {
     /// Checks the structure over these triangles and what the partition promises; `Err` says what is wrong. Allocates and takes its time.
     pub(crate) fn validate(
@@ -20,9 +29,8 @@ impl Tree {
     ) -> Result<(), String> {
         let corners = order.all_corners();
         let first = triangles.start;
-        if self.triangles_below(NodeId::ROOT)? != triangles {
-            return Err("the root does not hold all triangles".into());
-        }
+        let below = self.triangles_below(NodeId::ROOT)?;
+        ensure!(below == triangles, "the root does not hold all triangles");
         let connected = (partition == Partition::Connectivity).then(|| {
             let own = corners[triangles].iter();
             let corners: Vec<_> = own.map(|c| c.map(|vertex| vertex.0)).collect();
@@ -34,28 +42,25 @@ impl Tree {
             visited += 1;
             deepest = deepest.max(level);
             let (wide_node, lane) = node.wide_node_and_lane();
-            if !self.level(level).contains(&wide_node.index()) {
-                return Err(format!(
-                    "{wide_node:?}: not in the run of its level, {level}"
-                ));
-            }
+            let is_in_level = self.level(level).contains(&wide_node.index());
+            ensure!(
+                is_in_level,
+                "{wide_node:?}: not in the run of its level, {level}"
+            );
             let triangles = self.triangles_below(node)?;
             let below = &corners[triangles.clone()];
             let below: BTreeSet<TreeVertex> = below.as_flattened().iter().copied().collect();
             let number = self.wide_node(wide_node).first_node as usize + lane;
-            if self.vertices.vertices(number).collect::<BTreeSet<_>>() != below {
-                return Err(format!(
-                    "{wide_node:?}, lane {lane}: its vertex list is not the set of vertices below it"
-                ));
-            }
-            if connected
-                .as_ref()
-                .is_some_and(|all| !all.holds_for(triangles.start - first..triangles.end - first))
-            {
-                return Err(format!(
-                    "{wide_node:?}, lane {lane}: neither one connected piece nor whole components"
-                ));
-            }
+            let listed: BTreeSet<TreeVertex> = self.vertices.vertices(number).collect();
+            ensure!(
+                listed == below,
+                "{wide_node:?}, lane {lane}: its vertex list is not the set of vertices below it"
+            );
+            let own = triangles.start - first..triangles.end - first;
+            ensure!(
+                connected.as_ref().is_none_or(|all| all.holds_for(own)),
+                "{wide_node:?}, lane {lane}: neither one connected piece nor whole components"
+            );
             match self.child(node) {
                 Child::Leaf(leaf) => self.validate_blocks(leaf)?,
                 Child::Inner(below) => {
@@ -64,13 +69,11 @@ impl Tree {
                 }
             }
         }
-        if visited != self.node_count() || deepest != self.depth {
-            return Err(format!(
-                "{visited} nodes down to level {deepest}; {} and {} said",
-                self.node_count(),
-                self.depth
-            ));
-        }
+        let (count, depth) = (self.node_count(), self.depth);
+        ensure!(
+            visited == count && deepest == depth,
+            "{visited} nodes down to level {deepest}; {count} and {depth} said"
+        );
         Ok(())
     }
 
@@ -86,21 +89,17 @@ impl Tree {
         while let Some((node, above)) = open.pop() {
             let (wide_node, lane) = node.wide_node_and_lane();
             let is_valid = boxes.holds(wide_node, version);
-            if is_valid && !above {
-                return Err(format!("{wide_node:?}: valid below a stale one"));
-            }
+            ensure!(above || !is_valid, "{wide_node:?}: valid below a stale one");
             if is_valid {
                 let number = self.wide_node(wide_node).first_node as usize + lane;
                 let vertices: Vec<_> = self.vertices.vertices(number).collect();
-                let (found, expected) = (
-                    boxes.nodes().one(node),
-                    source.plainly(vertices.into_iter()),
+                let found = boxes.nodes().one(node);
+                let expected = source.plainly(vertices.into_iter());
+                ensure!(
+                    found == expected,
+                    "{wide_node:?}, lane {lane}: claims to be valid and is {found:?}, \
+                     not {expected:?}"
                 );
-                if found != expected {
-                    return Err(format!(
-                        "{wide_node:?}, lane {lane}: claims to be valid and is {found:?}, not {expected:?}"
-                    ));
-                }
             }
             match self.child(node) {
                 Child::Leaf(leaf) => self.validate_leaf_boxes(leaf, is_valid, boxes, source)?,
@@ -121,22 +120,19 @@ impl Tree {
         let mut lanes = 0;
         for child in self.nodes_in(below) {
             let run = self.triangles_below(child)?;
-            if run.start != next || run.is_empty() {
-                return Err(format!(
-                    "{below:?}: its nodes do not divide the triangles above"
-                ));
-            }
+            ensure!(
+                run.start == next && !run.is_empty(),
+                "{below:?}: its nodes do not divide the triangles above"
+            );
             next = run.end;
             lanes += 1;
         }
-        if lanes < 2 {
-            return Err(format!("{below:?}: {lanes} nodes"));
-        }
-        if next != triangles.end {
-            return Err(format!(
-                "{below:?}: its nodes do not hold all triangles above"
-            ));
-        }
+        ensure!(lanes >= 2, "{below:?}: {lanes} nodes");
+        let is_end = next == triangles.end;
+        ensure!(
+            is_end,
+            "{below:?}: its nodes do not hold all triangles above"
+        );
         Ok(())
     }
 
@@ -144,9 +140,11 @@ impl Tree {
     fn validate_blocks(&self, leaf: LeafId) -> Result<(), String> {
         for (triangle, block) in self.block_of_each_triangle(leaf) {
             let (block, lane) = block;
-            if self.leaves.first_of_block(block).plus(lane) != triangle {
-                return Err(format!("{leaf:?}: its blocks hold other triangles"));
-            }
+            let held = self.leaves.first_of_block(block).plus(lane);
+            ensure!(
+                held == triangle,
+                "{leaf:?}: its blocks hold other triangles"
+            );
         }
         Ok(())
     }
@@ -164,20 +162,18 @@ impl Tree {
         if !is_valid {
             return Ok(());
         }
-        if !above {
-            return Err(format!(
-                "{leaf:?}: the boxes of its triangles are valid and its own is not"
-            ));
-        }
+        ensure!(
+            above,
+            "{leaf:?}: the boxes of its triangles are valid and its own is not"
+        );
         for (triangle, (block, lane)) in self.block_of_each_triangle(leaf) {
             let found = boxes.blocks().of(block).get(lane as usize);
             let corners = source.shape().triangles[triangle.index()];
             let expected = source.plainly(corners.into_iter());
-            if found != expected {
-                return Err(format!(
-                    "{leaf:?}: {triangle:?} has box {found:?}, not {expected:?}"
-                ));
-            }
+            ensure!(
+                found == expected,
+                "{leaf:?}: {triangle:?} has box {found:?}, not {expected:?}"
+            );
         }
         Ok(())
     }

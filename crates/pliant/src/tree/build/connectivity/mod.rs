@@ -36,7 +36,7 @@ mod refinement;
 mod search;
 mod subtree;
 
-use super::Split;
+use super::{Pieces, Split};
 use crate::threads::Budget;
 use bisection::Bisection;
 use dual_graph::DualGraph;
@@ -92,12 +92,7 @@ impl Connectivity {
 }
 
 impl Split for Connectivity {
-    fn split(
-        &mut self,
-        triangles: &mut [u32],
-        pieces: &mut Vec<usize>,
-        budget: &mut Budget,
-    ) -> bool {
+    fn split(&mut self, triangles: &mut [u32], pieces: &mut Pieces, budget: &mut Budget) -> bool {
         budget.spend(triangles.len());
         // Runs still to be cut, the first on top, and how many children each is to become.
         let mut runs = vec![(0, triangles.len(), self.degree)];

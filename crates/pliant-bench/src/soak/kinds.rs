@@ -1,0 +1,69 @@
+//! Every kind of query that the library's registry lists, asked alike.
+
+use pliant::{Error, Query, Scalar, Selection, World};
+use std::fmt::{self, Debug, Write};
+use std::hash::{DefaultHasher, Hasher};
+
+/// A method of a world that asks for hits, by its name.
+pub(super) struct AnyKind<S: Scalar> {
+    pub(super) name: &'static str,
+    /// What is found of a selection, within a length if the kind has one.
+    pub(super) ask: fn(&mut World<S>, Selection, f64, Much) -> Result<Digest, Error>,
+}
+
+/// How much is wanted.
+#[derive(Clone, Copy)]
+pub(super) enum Much {
+    All,
+    First,
+}
+
+/// How many hits a list has, and a hash over all their figures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Digest(usize, u64);
+
+/// What is written is hashed.
+struct Hash(DefaultHasher);
+
+impl Write for Hash {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.0.write(text.as_bytes());
+        Ok(())
+    }
+}
+
+/// The text of a number is another if one of its bits is.
+fn digest<H: Copy + Debug>(query: Query<'_, H>, much: Much) -> Result<Digest, Error> {
+    let first;
+    let hits = match much {
+        Much::All => query.all()?,
+        Much::First => {
+            first = query.first()?;
+            first.as_slice()
+        }
+    };
+    let mut hash = Hash(DefaultHasher::new());
+    for hit in hits {
+        // A hash takes every text.
+        let _ = write!(hash, "{hit:?}");
+    }
+    Ok(Digest(hits.len(), hash.0.finish()))
+}
+
+macro_rules! list {
+    ($($name:ident: $kept:ty => $($hit:ty: $method:ident($of:ident $(, $length:ident)?)),+;)*) => {
+        /// The methods of every kind, in the order of the registry.
+        pub(super) fn every_kind<S: Scalar>() -> Vec<AnyKind<S>> {
+            vec![$($(AnyKind {
+                name: stringify!($method),
+                ask: |world, $of, within, much| {
+                    // A kind without a length takes none of it.
+                    let ($($length,)? ..) = (within,);
+                    digest(world.$method($of $(, $length)?), much)
+                },
+            },)+)*]
+        }
+    };
+}
+
+pliant::every_kind! { list }

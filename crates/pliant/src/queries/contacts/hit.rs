@@ -1,0 +1,21 @@
+//! Contacts, as callers get them: two triangles that intersect, and how.
+
+use crate::queries::Pair;
+use crate::sort::Numbered;
+pub use pliant_exact::ContactKind;
+
+/// Two triangles that intersect, and how.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Contact {
+    /// Which they are.
+    pub pair: Pair,
+    /// How they intersect.
+    pub kind: ContactKind,
+}
+
+impl Numbered for Contact {
+    #[inline]
+    fn numbers(&self) -> [u32; 4] {
+        self.pair.numbers()
+    }
+}

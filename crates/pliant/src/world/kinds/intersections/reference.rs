@@ -1,0 +1,35 @@
+//! Every two triangles that intersect, by exact signs.
+
+use crate::all_pairs::{triangles_that, without};
+use crate::error::Error;
+use crate::world::scalar::Scalar;
+use pliant_exact::reference::intersect;
+
+/// The pairs (triangle of a, triangle of b) that intersect, sorted.
+///
+/// # Errors
+///
+/// [`VertexOutOfRange`](crate::ErrorKind::VertexOutOfRange), [`BadPosition`](crate::ErrorKind::BadPosition) and the others of
+/// [`World::add`](crate::World::add).
+pub fn intersection_pairs<S: Scalar>(
+    triangles_a: &[[u32; 3]],
+    positions_a: &[[S; 3]],
+    triangles_b: &[[u32; 3]],
+    positions_b: &[[S; 3]],
+) -> Result<Vec<[u32; 2]>, Error> {
+    let (a, b) = ((triangles_a, positions_a), (triangles_b, positions_b));
+    triangles_that(a, Some(b), |a, b| intersect(a, b).then_some(())).map(without)
+}
+
+/// The pairs (smaller triangle, larger triangle) of one body that intersect and share no vertex, sorted.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn self_intersection_pairs<S: Scalar>(
+    triangles: &[[u32; 3]],
+    positions: &[[S; 3]],
+) -> Result<Vec<[u32; 2]>, Error> {
+    let body = (triangles, positions);
+    triangles_that(body, None, |a, b| intersect(a, b).then_some(())).map(without)
+}

@@ -1,0 +1,64 @@
+//! The registry of kinds, and each kind as users ask for it: a folder a kind.
+//!
+//! A kind here is made of a request (`Ask`), and has its method of `World`, its options of `Query`,
+//! and its slow `reference`. The registry says of every kind what a world keeps for it; tests ask
+//! for what it lists, so a kind that exists is tested.
+
+/// Lists every kind of query, for the macro whose name it is given: `every_kind! { name }`.
+///
+/// A line has a name, the buffers that a world of scalars `S` keeps for the kind, and for each of
+/// its hits the method of [`World`](crate::World) that asks for them: of a selection, and of some
+/// kinds within a length, which is a margin or a distance.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! every_kind {
+    ($then:ident) => {
+        $then! {
+            intersections: $crate::collide::Asked<$crate::queries::Intersections<S>>
+                => $crate::queries::Pair: intersections(of);
+            contacts: $crate::collide::Asked<$crate::queries::Contacts<S>>
+                => $crate::queries::Contact: contacts(of);
+            vertex_triangle: $crate::collide::Asked<$crate::queries::VertexTriangleCandidates<S>>
+                => $crate::queries::VertexTriangle: vertex_triangle_candidates(of, length);
+            edge_edge: $crate::collide::Asked<$crate::queries::EdgeEdgeCandidates<S>>
+                => $crate::queries::EdgeEdge: edge_edge_candidates(of, length);
+            close_vertex_triangle: $crate::collide::Asked<
+                $crate::queries::Close<$crate::queries::VertexTriangleCandidates<S>>,
+            > => $crate::queries::CloseVertexTriangle: close_vertex_triangle_pairs(of, length);
+            close_edge_edge: $crate::collide::Asked<
+                $crate::queries::Close<$crate::queries::EdgeEdgeCandidates<S>>,
+            > => $crate::queries::CloseEdgeEdge: close_edge_edge_pairs(of, length);
+            close_triangles: $crate::collide::Asked<$crate::queries::NearTriangles<S>>
+                => $crate::queries::CloseTriangles: close_triangle_pairs(of, length);
+            impacts: $crate::collide::AskedImpacts<S>
+                => $crate::queries::VertexTriangleImpact: vertex_triangle_impacts(of),
+                $crate::queries::EdgeEdgeImpact: edge_edge_impacts(of);
+        }
+    };
+}
+
+#[macro_use]
+mod ask;
+
+// In the order in which documentation shows what they say of a world.
+mod intersections;
+
+mod contacts;
+
+mod candidates;
+
+mod close;
+
+mod close_triangles;
+
+pub(super) mod impacts;
+
+/// What kinds have in `reference`, for the crate's.
+pub(crate) mod reference {
+    pub use super::candidates::reference::*;
+    pub use super::close::reference::*;
+    pub use super::close_triangles::reference::*;
+    pub use super::contacts::reference::*;
+    pub use super::impacts::reference::*;
+    pub use super::intersections::reference::*;
+}

@@ -132,9 +132,9 @@ impl Real for f64 {
     in_both!(f64);
     const PRECISION: Precision = Precision::Double;
     const BOXES_ARE_EXACT: bool = false;
-    // Let L be the magnitude of the larger end. These are rounded: a difference of at most 2 L, a
-    // product with it, a sum of at most 3 L, and the sum with the margin. Each is off by 2^-53 of
-    // itself: together less than 2^-49 L. A result below 2^-1022 may be taken for zero.
+    // Let L be the magnitude of the larger end. Four values are rounded: a difference of at most 2 L,
+    // a product with it, a sum of at most 3 L, and the result. Each is off by 2^-53 of itself:
+    // together less than 2^-49 L. A result below 2^-1022 may be taken for zero.
     const FURTHER: f64 = f64::from_bits((1023 - 49) << 52);
     const LEAST: f64 = f64::from_bits((1023 - 1018) << 52);
     // 2^-969: from there on coordinates, and so their differences, are multiples of 2^-1021.

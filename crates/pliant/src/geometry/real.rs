@@ -132,8 +132,8 @@ impl Real for f64 {
     in_both!(f64);
     const PRECISION: Precision = Precision::Double;
     const BOXES_ARE_EXACT: bool = false;
-    // Let L be the magnitude of the larger end. Four values are rounded: a difference of at most 2 L,
-    // a product with it, a sum of at most 3 L, and the result. Each is off by 2^-53 of itself:
+    // Let L be the magnitude of the larger end. Four values are rounded: a difference of at most
+    // 2 L, a product with it, a sum of at most 3 L, and the result. Each is off by 2^-53 of itself:
     // together less than 2^-49 L. A result below 2^-1022 may be taken for zero.
     const FURTHER: f64 = f64::from_bits((1023 - 49) << 52);
     const LEAST: f64 = f64::from_bits((1023 - 1018) << 52);
@@ -283,7 +283,8 @@ mod tests {
             let (ways, doubles) = (black_box(ways), black_box(doubles));
             (ways.map(single), doubles.map(double))
         };
-        // Compared here, where no operand is taken for zero. What is read as zero has to be as good.
+        // Compared here, where no operand is taken for zero. A result that is read as zero has to be
+        // as good.
         let check = |(singles, found): ([f32; 4], [f64; 4])| {
             let read = |place: f64, least: f64| if place.abs() < least { 0.0 } else { place };
             for ((from, to, t), found) in ways.into_iter().zip(singles) {

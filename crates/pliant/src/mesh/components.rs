@@ -1,13 +1,16 @@
-//! Which triangles hang together: those that share a vertex, and those that these share one with, and so on.
+//! Connected components of a mesh over shared vertices, by union-find.
 
 use super::topology::EMPTY;
 
-/// The component of an empty number.
+/// Component of an empty triangle number: a sentinel.
 const NO_COMPONENT: u32 = u32::MAX;
 
-/// For each triangle its component; numbered in the order of their first triangles. How many there are. Cost: O(m + n), about.
+/// Labels each triangle with its connected component; returns the labels and how many there are.
+///
+/// Triangles that share a vertex are connected. Components are numbered in the order of their first
+/// triangles. Cost: about O(m + n) for m triangles and n vertices.
 pub(crate) fn components(triangles: &[[u32; 3]], vertices: usize) -> (Vec<u32>, usize) {
-    // Of each vertex another of its component, of one of them itself.
+    // Union-find: the parent of each vertex; a root is its own parent.
     let mut next: Vec<u32> = (0..vertices as u32).collect();
     for &[a, b, c] in triangles.iter().filter(|&&corners| corners != EMPTY) {
         let first = leader(&mut next, a);
@@ -33,8 +36,10 @@ pub(crate) fn components(triangles: &[[u32; 3]], vertices: usize) -> (Vec<u32>, 
     (of_triangles, count as usize)
 }
 
-/// What stands for all things that one is joined with, of things each of which has another that it is joined with, or itself. The way to
-/// it is halved in passing.
+/// Union-find root of `thing`, with path halving.
+///
+/// `next` holds the parent of each thing; a root is its own parent. To unite two sets, one root
+/// becomes the parent of the other.
 pub(crate) fn leader(next: &mut [u32], mut thing: u32) -> u32 {
     while next[thing as usize] != thing {
         let nearer = next[next[thing as usize] as usize];

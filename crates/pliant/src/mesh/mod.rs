@@ -1,4 +1,4 @@
-//! Meshes: what the caller said, how a tree orders it, its edges; and edits of it.
+//! Meshes: topology as the caller gave it, tree order, edges, edits as drafts, components, welding.
 
 mod bits;
 mod components;

@@ -11,7 +11,7 @@ mod triangles_at;
 mod weld;
 
 pub(crate) use bits::Bits;
-pub(crate) use components::{components, leader};
+pub(crate) use components::{components, find_root};
 pub(crate) use draft::{Draft, Outcome};
 pub(crate) use elements::{Changed, Elements, TriangleRun};
 pub(crate) use order::{Moved, Order, OrderBuilder};

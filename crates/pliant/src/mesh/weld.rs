@@ -70,7 +70,7 @@ enum Below {
     /// Sides that were not compared yet.
     Leaf(Range<usize>),
     /// Sides that were compared with each other, as the runs of their groups.
-    Kinds(Vec<Range<usize>>),
+    Groups(Vec<Range<usize>>),
     /// Two children: the next node is the first, this is the second.
     Inner(usize),
 }
@@ -194,8 +194,8 @@ impl Search<'_> {
                 self.between(node + 1, second)
             }
             Below::Leaf(sides) => {
-                let kinds = if self.are_all_near(&self.nodes[node]) {
-                    self.kinds_of(sides)?
+                let groups = if self.are_all_near(&self.nodes[node]) {
+                    self.groups_of(sides)?
                 } else {
                     for i in sides.clone() {
                         for j in i + 1..sides.end {
@@ -206,37 +206,37 @@ impl Search<'_> {
                     }
                     sides.map(|side| side..side + 1).collect()
                 };
-                self.nodes[node].below = Below::Kinds(kinds);
+                self.nodes[node].below = Below::Groups(groups);
                 self.go_on()
             }
-            Below::Kinds(_) => Some(()),
+            Below::Groups(_) => Some(()),
         }
     }
 
     /// Welds sides that all coincide, as far as they may be, and sorts them by group. Returns the
     /// runs of the groups.
-    fn kinds_of(&mut self, sides: Range<usize>) -> Option<Vec<Range<usize>>> {
-        let mut kinds: Vec<Vec<[u32; 2]>> = Vec::new();
+    fn groups_of(&mut self, sides: Range<usize>) -> Option<Vec<Range<usize>>> {
+        let mut groups: Vec<Vec<[u32; 2]>> = Vec::new();
         for place in sides.clone() {
             let side = self.sides[place];
             let mut found = None;
-            for (kind, of_kind) in kinds.iter().enumerate() {
+            for (group, of_group) in groups.iter().enumerate() {
                 self.go_on()?;
-                if self.classes.join(of_kind[0], side) {
-                    found = Some(kind);
+                if self.classes.join(of_group[0], side) {
+                    found = Some(group);
                     break;
                 }
             }
             match found {
-                Some(kind) => kinds[kind].push(side),
-                None => kinds.push(vec![side]),
+                Some(group) => groups[group].push(side),
+                None => groups.push(vec![side]),
             }
         }
         let mut end = sides.start;
-        let ranges = kinds.iter().map(|of_kind| {
+        let ranges = groups.iter().map(|of_group| {
             let start = end;
-            end += of_kind.len();
-            self.sides[start..end].copy_from_slice(of_kind);
+            end += of_group.len();
+            self.sides[start..end].copy_from_slice(of_group);
             start..end
         });
         Some(ranges.collect())
@@ -258,11 +258,11 @@ impl Search<'_> {
                 self.between(a, b + 1)?;
                 self.between(a, second)
             }
-            (Below::Kinds(of_a), Below::Kinds(of_b)) => {
+            (Below::Groups(of_a), Below::Groups(of_b)) => {
                 let (of_a, of_b) = (of_a.clone(), of_b.clone());
-                for kind in of_a {
+                for group in of_a {
                     for other in &of_b {
-                        self.join_kinds(kind.clone(), other.clone())?;
+                        self.join_groups(group.clone(), other.clone())?;
                     }
                 }
                 Some(())
@@ -272,14 +272,14 @@ impl Search<'_> {
     }
 
     /// Welds two groups of sides, if they may be and a side of one coincides with one of the other.
-    fn join_kinds(&mut self, kind: Range<usize>, other: Range<usize>) -> Option<()> {
+    fn join_groups(&mut self, group: Range<usize>, other: Range<usize>) -> Option<()> {
         if !self
             .classes
-            .may_join(self.sides[kind.start], self.sides[other.start])
+            .may_join(self.sides[group.start], self.sides[other.start])
         {
             return Some(());
         }
-        for i in kind {
+        for i in group {
             self.go_on()?;
             for j in other.clone() {
                 if self.coincide(self.sides[i], self.sides[j]) {

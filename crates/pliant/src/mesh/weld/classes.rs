@@ -1,6 +1,6 @@
 //! Union-find over welded vertices, and which of them may not be welded: corners of one triangle.
 
-use crate::mesh::components::leader;
+use crate::mesh::components::find_root;
 use crate::mesh::edges::each_edge;
 use std::collections::BTreeSet;
 
@@ -15,7 +15,7 @@ pub(super) struct Classes {
     /// For each vertex of the mesh its place in `vertices`, or [`NO_PLACE`].
     places: Vec<u32>,
     /// Union-find parent of each place; a root is its own parent.
-    next: Vec<u32>,
+    parents: Vec<u32>,
     /// Lowest place of the set of each root.
     lowest: Vec<u32>,
     /// For each root the roots that it may not be united with: they share a triangle with it.
@@ -49,7 +49,7 @@ impl Classes {
             }
         })?;
         Some(Self {
-            next: all.clone().collect(),
+            parents: all.clone().collect(),
             lowest: all.collect(),
             vertices,
             places,
@@ -59,7 +59,7 @@ impl Classes {
 
     /// Returns the union-find root of a vertex.
     fn of(&mut self, vertex: u32) -> u32 {
-        leader(&mut self.next, self.places[vertex as usize])
+        find_root(&mut self.parents, self.places[vertex as usize])
     }
 
     /// Whether two sides, end by end, may be welded and are not yet. Once it is false it stays so.
@@ -93,7 +93,7 @@ impl Classes {
             of_other.insert(kept);
             self.conflicts[kept as usize].insert(other);
         }
-        self.next[gone as usize] = kept;
+        self.parents[gone as usize] = kept;
         let lowest = self.lowest[gone as usize].min(self.lowest[kept as usize]);
         self.lowest[kept as usize] = lowest;
     }

@@ -1,7 +1,7 @@
 //! What is always true of a mesh connectivity tree: below every node there is one connected piece of the mesh, or components of
 //! it, each whole. By union and find over edges: nothing in common with how the tree was built.
 
-use crate::mesh::leader;
+use crate::mesh::find_root;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -57,15 +57,15 @@ fn components(triangles: &[[u32; 3]]) -> Vec<u32> {
         }
     }
     sides.sort_unstable();
-    let mut leaders: Vec<u32> = (0..triangles.len() as u32).collect();
+    let mut parents: Vec<u32> = (0..triangles.len() as u32).collect();
     for pair in sides.windows(2) {
         if (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1) {
-            let [a, b] = [pair[0].2, pair[1].2].map(|triangle| leader(&mut leaders, triangle));
-            leaders[a.max(b) as usize] = a.min(b);
+            let [a, b] = [pair[0].2, pair[1].2].map(|triangle| find_root(&mut parents, triangle));
+            parents[a.max(b) as usize] = a.min(b);
         }
     }
     (0..triangles.len() as u32)
-        .map(|triangle| leader(&mut leaders, triangle))
+        .map(|triangle| find_root(&mut parents, triangle))
         .collect()
 }
 

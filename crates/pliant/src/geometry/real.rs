@@ -283,7 +283,7 @@ mod tests {
             let (ways, doubles) = (black_box(ways), black_box(doubles));
             (ways.map(single), doubles.map(double))
         };
-        // Compared here, where no operand is taken for zero. A result that is read as zero has to be
+        // Compared here, where no operand is taken for zero. A result that is read as zero must be
         // as good.
         let check = |(singles, found): ([f32; 4], [f64; 4])| {
             let read = |place: f64, least: f64| if place.abs() < least { 0.0 } else { place };

@@ -136,7 +136,7 @@ impl Tree {
         self.nodes().wide(wide_node)
     }
 
-    /// Returns the child entry of a node: a wide node or a leaf.
+    /// Returns the link from a node down, to a wide node or a leaf.
     #[inline(always)]
     pub(crate) fn child(&self, node: NodeId) -> Child {
         self.nodes().child(node)
@@ -240,7 +240,7 @@ impl<'t> Nodes<'t> {
         &self.0[wide_node.index()]
     }
 
-    /// Returns the child entry of a node: a wide node or a leaf.
+    /// Returns the link from a node down, to a wide node or a leaf.
     #[inline(always)]
     pub(crate) fn child(self, node: NodeId) -> Child {
         let (wide_node, lane) = node.wide_node_and_lane();

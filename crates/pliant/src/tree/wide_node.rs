@@ -2,7 +2,7 @@
 
 use crate::ids::{LeafId, WideNodeId};
 
-/// Child entry of a node: whether it is inner, and where it continues.
+/// Link from a node down: to the wide node of its children, or to its leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Child {
     /// A wide node, which holds the node's children.
@@ -63,13 +63,13 @@ impl WideNode {
         self.children[lane] = PackedChild::new(child);
     }
 
-    /// Returns the child entry of the node in a used lane.
+    /// Returns the link down from the node in a used lane.
     #[inline(always)]
     pub(crate) fn child(&self, lane: usize) -> Child {
         self.children[lane].get()
     }
 
-    /// Iterates over the child entries of all used lanes.
+    /// Iterates over the links down of all used lanes.
     #[inline]
     pub(crate) fn children(&self) -> impl Iterator<Item = Child> {
         let used = self.children.into_iter();

@@ -159,28 +159,28 @@ impl TreeBuilder {
     /// Begins a tree; see [`Tree::new`].
     pub(crate) fn new(plan: &Plan, order: &Order, first_vertex: TreeVertex) -> Self {
         let mut wide_nodes = vec![WideNode::new(0)];
-        let first = plan.parts.first().map_or(0, |root| root.triangles.start);
+        let first = plan.nodes.first().map_or(0, |root| root.triangles.start);
         let mut leaves = Leaves::new(plan.leaf_size, TreeTriangle(first));
-        // Parts come level by level, so the next part is always in the first wide node that lacks a
+        // Nodes come level by level, so the next one is always in the first wide node that lacks a
         // child.
         let (mut wide_node, mut lane, mut lanes) = (0, 0, 1);
         let mut lanes_to_come = std::collections::VecDeque::new();
         let mut level_starts = Vec::new();
-        for part in &plan.parts {
+        for node in &plan.nodes {
             if lane == lanes {
                 (wide_node, lane) = (wide_node + 1, 0);
                 lanes = lanes_to_come
                     .pop_front()
                     .expect("a part below the root has a parent before it");
             }
-            if part.level as usize == level_starts.len() {
+            if node.level as usize == level_starts.len() {
                 level_starts.push(wide_node as u32);
             }
-            let child = if part.children.is_empty() {
-                Child::Leaf(leaves.push(part.triangles.clone()))
+            let child = if node.children.is_empty() {
+                Child::Leaf(leaves.push(node.triangles.clone()))
             } else {
-                lanes_to_come.push_back(part.children.len());
-                wide_nodes.push(WideNode::new(part.children.start));
+                lanes_to_come.push_back(node.children.len());
+                wide_nodes.push(WideNode::new(node.children.start));
                 Child::Inner(WideNodeId(wide_nodes.len() as u32 - 1))
             };
             wide_nodes[wide_node].set_child(lane, child);
@@ -207,7 +207,7 @@ impl TreeBuilder {
             leaves,
             neighbours: None,
             degree: plan.degree,
-            depth: plan.parts.last().map_or(0, |deepest| deepest.level),
+            depth: plan.nodes.last().map_or(0, |deepest| deepest.level),
         };
         let vertices = VertexSetsBuilder::new(plan, order, first_vertex);
         Self { tree, vertices }

@@ -63,7 +63,7 @@ impl VertexSetsBuilder {
     /// `first_vertex` on.
     pub(super) fn new(plan: &Plan, order: &Order, TreeVertex(first_vertex): TreeVertex) -> Self {
         let all = plan
-            .parts
+            .nodes
             .first()
             .map_or(0..0, |root| root.triangles.clone());
         let [start, end] = [all.start as usize, all.end as usize];
@@ -87,7 +87,7 @@ impl VertexSetsBuilder {
         let seen_by = vec![u32::MAX; earlier.len() + (used - first_vertex) as usize];
         Self {
             all: VertexSets {
-                sets: Vec::with_capacity(plan.parts.len()),
+                sets: Vec::with_capacity(plan.nodes.len()),
                 border: Vec::new(),
             },
             start,
@@ -106,12 +106,12 @@ impl VertexSetsBuilder {
             Some(own) => earlier.len() + own as usize,
             None => earlier.partition_point(|&it| it < vertex),
         };
-        while let Some(part) = plan.parts.get(sets.len()) {
+        while let Some(plan_node) = plan.nodes.get(sets.len()) {
             if budget.is_spent() {
                 return false;
             }
             let node = sets.len() as u32;
-            let triangles = part.triangles.start as usize..part.triangles.end as usize;
+            let triangles = plan_node.triangles.start as usize..plan_node.triangles.end as usize;
             budget.spend(triangles.len());
             let mut run = [triangles.start, triangles.end]
                 .map(|triangle| self.used_before[triangle - self.start]);
@@ -127,7 +127,7 @@ impl VertexSetsBuilder {
                 }
             }
             let count = border.len() - first + (run[1] - run[0]) as usize;
-            if part.children.is_empty() && count <= FEW {
+            if plan_node.children.is_empty() && count <= FEW {
                 border.extend((run[0]..run[1]).map(TreeVertex));
                 let last = border[border.len() - 1];
                 border.resize(first + count.next_multiple_of(4), last);
@@ -149,8 +149,9 @@ impl VertexSetsBuilder {
             mut sets,
             mut border,
         } = self.all;
-        for part in &plan.parts {
-            let group = &mut sets[part.children.start as usize..part.children.end as usize];
+        for plan_node in &plan.nodes {
+            let group =
+                &mut sets[plan_node.children.start as usize..plan_node.children.end as usize];
             let is_twelve = |set: &Set| set.borders as usize == TWELVE && set.run[0] == set.run[1];
             if group.len() == plan.degree && group.iter().all(is_twelve) {
                 group[0].in_twelves = true;

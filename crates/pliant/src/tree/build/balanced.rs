@@ -1,6 +1,6 @@
 //! Balanced partition: a tree whose leaves and lanes are full, except near the root.
 //!
-//! A part of n triangles whose children can hold c each gets ceil(n / c) children. The parts are
+//! A node of n triangles whose children can hold c each gets ceil(n / c) children. Children are
 //! found by halving. Each halving divides the midpoints along the longest side of their box, at the
 //! multiple of c nearest the middle. All subtrees except the last child's are full: leaf size x
 //! degree^height triangles. Not in the paper, whose trees are cut at points of space; on surfaces
@@ -17,10 +17,10 @@ pub(crate) struct Balanced {
     midpoints: Vec<[f64; 3]>,
     degree: usize,
     leaf_size: usize,
-    /// Stack of the halves of the current part that are still to be divided: first triangle,
+    /// Stack of the halves of the current node that are still to be divided: first triangle,
     /// length, children. At most log2(degree) + 1 of them.
     halves: Vec<(usize, usize, usize)>,
-    /// Keys by which the triangles of a part are ordered; the memory is kept from part to part.
+    /// Keys by which the triangles of a node are ordered; the memory is kept from node to node.
     keys: Vec<u128>,
 }
 
@@ -49,7 +49,7 @@ impl Balanced {
         }
     }
 
-    /// Returns how many triangles a child of a part of `count` can hold: the smallest full tree
+    /// Returns how many triangles a child of a node of `count` can hold: the smallest full tree
     /// that suffices.
     fn capacity(&self, count: usize) -> usize {
         let mut capacity = self.leaf_size;

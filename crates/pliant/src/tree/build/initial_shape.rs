@@ -1,4 +1,4 @@
-//! Initial shape partition of the paper (3.2): each part's box is cut at a point.
+//! Initial shape partition of the paper (3.2): each node's box is cut at a point.
 //!
 //! The cut goes along the longest side (degree 2), the two longest (4) or all three (8). Each
 //! triangle goes where its midpoint lies; empty sub-volumes get no child. The point is the centre
@@ -11,12 +11,12 @@ use crate::held;
 use crate::threads::Budget;
 use std::borrow::Cow;
 
-/// Point at which a part is cut.
+/// Point at which a node is cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum CutAt {
-    /// Centre of the part's box.
+    /// Centre of the node's box.
     Centre,
-    /// Mean of the midpoints of the part's triangles.
+    /// Mean of the midpoints of the node's triangles.
     Mean,
 }
 
@@ -27,7 +27,7 @@ pub(crate) struct InitialShape<'a, S: Copy> {
     cut: CutAt,
     /// How many sides are cut: the degree is 2 to this power.
     sides: usize,
-    /// Triangles of the current part that were looked at.
+    /// Triangles of the current node that were looked at.
     seen: usize,
     /// Box of these triangles.
     bounds: Bounds<S>,

@@ -1,7 +1,7 @@
 //! Partition of a body's triangles into the nodes of a tree: plain data, without boxes.
 //!
 //! One loop, breadth first, without a stack, however deep the tree: see [`Planner`]. One hook: a
-//! [`Split`] reorders the triangles of a part and says where to cut. If it cannot tell the
+//! [`Split`] reorders the triangles of a node and says where to cut. If it cannot tell the
 //! triangles apart (all midpoints in one place), the loop cuts the order it finds. So every build
 //! ends. The degree is a number here, not a type.
 
@@ -19,14 +19,14 @@ use std::ops::Range;
 /// Division of triangles: the order of triangles in a tree to be, and its nodes.
 #[derive(Debug)]
 pub(crate) struct Plan {
-    /// Caller's numbers of the triangles, so that every part is a run.
+    /// Caller's numbers of the triangles, so that every node is a run.
     pub(crate) order: Vec<u32>,
-    /// All parts, level by level; the first is the root. Children of one part are consecutive, in
+    /// All nodes, level by level; the first is the root. Children of one node are consecutive, in
     /// the order of their triangles.
-    pub(crate) parts: Vec<Part>,
+    pub(crate) nodes: Vec<PlanNode>,
     /// Most triangles in a leaf.
     pub(crate) leaf_size: u32,
-    /// Most children of a part.
+    /// Most children of a node.
     pub(crate) degree: usize,
 }
 
@@ -41,9 +41,9 @@ impl Plan {
 
     /// Moves the plan behind `triangles` other triangles.
     pub(crate) fn behind(mut self, triangles: u32) -> Self {
-        for part in &mut self.parts {
-            part.triangles.start += triangles;
-            part.triangles.end += triangles;
+        for node in &mut self.nodes {
+            node.triangles.start += triangles;
+            node.triangles.end += triangles;
         }
         self
     }
@@ -51,20 +51,20 @@ impl Plan {
 
 /// Node of a tree to be: a run of triangles and its children.
 #[derive(Clone, Debug)]
-pub(crate) struct Part {
+pub(crate) struct PlanNode {
     /// Run of its triangles in the order.
     pub(crate) triangles: Range<u32>,
-    /// Its children among the parts; empty for a leaf.
+    /// Its children among the nodes; empty for a leaf.
     pub(crate) children: Range<u32>,
     pub(crate) level: u32,
 }
 
-/// Lengths of the pieces of a part, in order.
+/// Lengths of the pieces of a node, in order.
 pub(crate) type Pieces = Vec<usize>;
 
 /// Rule for dividing triangles: the hook of [`Planner`].
 pub(crate) trait Split {
-    /// Divides the triangles of a part into pieces, or goes on with that. Returns whether it is
+    /// Divides the triangles of a node into pieces, or goes on with that. Returns whether it is
     /// done.
     ///
     /// `triangles` are the caller's numbers, more than `leaf_size` of them. They are reordered, and
@@ -79,7 +79,7 @@ pub(crate) trait Split {
     }
 }
 
-/// Divides `count` triangles until each part has at most `leaf_size`.
+/// Divides `count` triangles until each node has at most `leaf_size`.
 pub(crate) fn plan(count: usize, degree: usize, leaf_size: u32, rule: impl Split) -> Plan {
     let mut planner = Planner::new(count, degree, leaf_size, rule);
     planner.advance(&mut Budget::whole());
@@ -89,15 +89,15 @@ pub(crate) fn plan(count: usize, degree: usize, leaf_size: u32, rule: impl Split
 /// Division of triangles under construction, made some at a time.
 ///
 /// ```text
-/// parts = [all triangles]
-/// for each part, first to last:                       breadth first
+/// nodes = [all triangles]
+/// for each node, first to last:                       breadth first
 ///     at most `leaf_size` triangles:  it is a leaf
-///     else split it into 2 to `degree` parts and append them
+///     else split it into 2 to `degree` nodes and append them
 /// ```
 pub(crate) struct Planner<R> {
     rule: R,
     plan: Plan,
-    /// First part that was not divided.
+    /// First node that was not divided.
     next: usize,
     /// Whether its split was begun.
     is_begun: bool,
@@ -106,13 +106,13 @@ pub(crate) struct Planner<R> {
 }
 
 impl<R: Split> Planner<R> {
-    /// Begins with all of `count` triangles in one part.
+    /// Begins with all of `count` triangles in one node.
     pub(crate) fn new(count: usize, degree: usize, leaf_size: u32, rule: R) -> Self {
         Self {
             rule,
             plan: Plan {
                 order: (0..count as u32).collect(),
-                parts: vec![Part {
+                nodes: vec![PlanNode {
                     triangles: 0..count as u32,
                     children: 0..0,
                     level: 0,
@@ -126,16 +126,16 @@ impl<R: Split> Planner<R> {
         }
     }
 
-    /// Continues; returns whether all parts are divided.
+    /// Continues; returns whether all nodes are divided.
     pub(crate) fn advance(&mut self, budget: &mut Budget) -> bool {
         let plan = &mut self.plan;
-        while self.next < plan.parts.len() {
+        while self.next < plan.nodes.len() {
             if budget.is_spent() {
                 return false;
             }
-            let Part {
+            let PlanNode {
                 triangles, level, ..
-            } = plan.parts[self.next].clone();
+            } = plan.nodes[self.next].clone();
             if triangles.len() > plan.leaf_size as usize {
                 let run = &mut plan.order[triangles.start as usize..triangles.end as usize];
                 if !self.is_begun {
@@ -148,12 +148,12 @@ impl<R: Split> Planner<R> {
                 if self.pieces.len() == 1 {
                     cut_the_order(run.len(), plan.degree, &mut self.pieces);
                 }
-                let first = plan.parts.len() as u32;
-                plan.parts[self.next].children = first..first + self.pieces.len() as u32;
+                let first = plan.nodes.len() as u32;
+                plan.nodes[self.next].children = first..first + self.pieces.len() as u32;
                 let mut start = triangles.start;
                 for &length in &self.pieces {
                     let end = start + length as u32;
-                    plan.parts.push(Part {
+                    plan.nodes.push(PlanNode {
                         triangles: start..end,
                         children: 0..0,
                         level: level + 1,
@@ -166,9 +166,9 @@ impl<R: Split> Planner<R> {
         true
     }
 
-    /// Returns the division, when no part is left.
+    /// Returns the division, when no node is left.
     pub(crate) fn finish(mut self) -> Plan {
-        self.plan.parts.shrink_to_fit();
+        self.plan.nodes.shrink_to_fit();
         self.plan
     }
 }
@@ -183,7 +183,7 @@ impl Split for Box<dyn Split + Send + Sync> {
     }
 }
 
-held!(Plan: order[], parts[]);
+held!(Plan: order[], nodes[]);
 
 impl<R: Split> Held for Planner<R> {
     fn held(&self) -> usize {

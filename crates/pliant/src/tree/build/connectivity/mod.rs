@@ -34,7 +34,7 @@ use halves::{Half, Shares};
 /// - some of its components, each whole.
 ///
 /// ```text
-/// a part:  cut it in two, and again, until there are `degree` pieces, or a piece fits a leaf
+/// a node:  cut it in two, and again, until there are `degree` pieces, or a piece fits a leaf
 /// cut:     components, if there are several, are shared out whole      components
 ///          a connected piece is bisected into two connected pieces    bisection
 /// bisect:  contract neighbours, again and again                       coarsening
@@ -130,7 +130,7 @@ mod tests {
         let before = LINKS_READ.get();
         let rule = Connectivity::new(triangles, 8, 1);
         let plan = plan(triangles.len(), 8, 1, rule);
-        assert!(plan.parts.len() > triangles.len());
+        assert!(plan.nodes.len() > triangles.len());
         let levels = f64::from((triangles.len() as u32).ilog2());
         (LINKS_READ.get() - before) as f64 / triangles.len() as f64 / levels
     }

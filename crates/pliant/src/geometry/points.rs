@@ -72,12 +72,14 @@ impl<S: Real> Points<S> {
         }
     }
 
+    /// Recomputes the bounds of a row.
     fn bound_row(&mut self, row: usize) {
         let first = row * IN_A_ROW;
         let end = self.points.len().min(first + IN_A_ROW);
         self.bounds[row] = bounds_of_row(&self.points[first..end]);
     }
 
+    /// Returns a point.
     #[inline]
     pub(crate) fn get(&self, vertex: TreeVertex) -> [S; 3] {
         let [x, y, z, _] = *self.padded(vertex);

@@ -172,6 +172,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         })
     }
 
+    /// Adds a vertex behind all others; refuses if there are too many.
     fn add_vertex(&mut self, position: [S; 3]) -> Result<u32, ErrorKind> {
         check_counts(self.triangles, self.vertices + 1)?;
         let vertex = self.vertices as u32;
@@ -180,6 +181,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         Ok(vertex)
     }
 
+    /// Gives a number of a vertex a position, and with that a vertex.
     fn place(&mut self, vertex: u32, position: [S; 3]) {
         self.positions.insert(vertex, position);
         self.merged.remove(&vertex);
@@ -196,6 +198,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         Some(vertex)
     }
 
+    /// Returns the position of a vertex by now.
     fn position(&self, vertex: u32) -> [S; 3] {
         let placed = self.positions.get(&vertex).copied();
         placed.unwrap_or_else(|| (self.position_of)(vertex))
@@ -240,6 +243,7 @@ impl<'m, S: Copy> Draft<'m, S> {
             || self.empty.has(vertex) && !self.positions.contains_key(&vertex)
     }
 
+    /// Refuses a number of a vertex that does not exist.
     fn check_number(&self, vertex: u32) -> Result<(), ErrorKind> {
         let vertices = self.vertices;
         if vertex as usize >= vertices {
@@ -248,6 +252,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         Ok(())
     }
 
+    /// Refuses a number that does not exist or is empty.
     fn check_vertex(&self, vertex: u32) -> Result<(), ErrorKind> {
         self.check_number(vertex)?;
         if self.is_empty(vertex) {
@@ -256,6 +261,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         Ok(())
     }
 
+    /// Refuses a number of a triangle that does not exist.
     fn check_triangle(&self, triangle: u32) -> Result<(), ErrorKind> {
         let triangles = self.triangles;
         if triangle as usize >= triangles {
@@ -267,6 +273,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         Ok(())
     }
 
+    /// Returns the corners of a triangle; refuses a number that does not exist or is empty.
     fn live_corners(&self, triangle: u32) -> Result<[u32; 3], ErrorKind> {
         self.check_triangle(triangle)?;
         let corners = self.corners(triangle);
@@ -276,6 +283,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         Ok(corners)
     }
 
+    /// Refuses corners that are no vertices.
     fn check_corners(&self, triangle: u32, corners: [u32; 3]) -> Result<(), ErrorKind> {
         for vertex in corners {
             if vertex as usize >= self.vertices {

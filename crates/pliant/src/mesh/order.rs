@@ -158,16 +158,19 @@ impl Order {
         &self.corners
     }
 
+    /// Returns the corners of a triangle.
     #[inline]
     pub(crate) fn corners(&self, triangle: TreeTriangle) -> [TreeVertex; 3] {
         self.corners[triangle.index()]
     }
 
+    /// Returns the caller's number of a triangle.
     #[inline]
     pub(crate) fn caller_triangle(&self, triangle: TreeTriangle) -> CallerTriangle {
         CallerTriangle(self.triangles[triangle.index()])
     }
 
+    /// Returns the caller's number of a vertex; of an orphan its alias.
     #[inline]
     pub(crate) fn caller_vertex(&self, vertex: TreeVertex) -> CallerVertex {
         CallerVertex(self.vertices[vertex.index()])

@@ -112,6 +112,7 @@ impl Topology {
         self.vertices as usize
     }
 
+    /// Returns the corners of a number; [`EMPTY`] if there is no triangle.
     #[inline]
     pub(crate) fn corners(&self, triangle: CallerTriangle) -> [CallerVertex; 3] {
         self.triangles[triangle.index()].map(CallerVertex)

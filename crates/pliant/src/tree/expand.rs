@@ -80,6 +80,7 @@ pub(crate) fn expand(
     });
 }
 
+/// [`expand`] for one instruction set, one degree, and two trees or one.
 #[inline(always)]
 fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
     i: I,

@@ -70,6 +70,7 @@ impl Leaves {
         self.counts.shrink_to_fit();
     }
 
+    /// Returns how many leaves there are.
     pub(crate) fn len(&self) -> usize {
         self.runs.len()
     }
@@ -127,6 +128,7 @@ impl Leaves {
         self.have_blocks && self.first_triangles.len() == self.runs.len()
     }
 
+    /// Returns how many blocks all leaves have.
     pub(crate) fn block_count(&self) -> usize {
         self.first_triangles.len()
     }
@@ -172,6 +174,7 @@ impl Leaves {
 pub(crate) struct FirstsOfBlocks<'l>(&'l [TreeTriangle]);
 
 impl FirstsOfBlocks<'_> {
+    /// Returns the first triangle of a block.
     #[inline(always)]
     pub(crate) fn of(self, block: BlockId) -> TreeTriangle {
         self.0[block.index()]

@@ -131,6 +131,7 @@ impl Tree {
         Nodes(&self.wide_nodes)
     }
 
+    /// Returns a wide node.
     #[inline(always)]
     pub(crate) fn wide_node(&self, wide_node: WideNodeId) -> &WideNode {
         self.nodes().wide(wide_node)
@@ -235,6 +236,7 @@ held!(TreeBuilder: tree, vertices);
 pub(crate) struct Nodes<'t>(&'t [WideNode]);
 
 impl<'t> Nodes<'t> {
+    /// Returns a wide node.
     #[inline(always)]
     pub(crate) fn wide(self, wide_node: WideNodeId) -> &'t WideNode {
         &self.0[wide_node.index()]

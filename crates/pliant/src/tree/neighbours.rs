@@ -51,6 +51,7 @@ struct LaneLists {
 }
 
 impl LaneLists {
+    /// Allocates for `things` lists with `others` entries in all.
     fn with_capacity(things: usize, others: usize) -> Self {
         let mut starts = Vec::with_capacity(things + 1);
         starts.push(0);

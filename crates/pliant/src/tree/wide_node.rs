@@ -15,7 +15,9 @@ pub(crate) enum Child {
 struct PackedChild(u32);
 
 impl PackedChild {
+    /// Bit that marks a leaf.
     const LEAF: u32 = 1 << 31;
+    /// Sentinel of an unused lane.
     const NONE: Self = Self(u32::MAX);
 
     fn new(child: Child) -> Self {
@@ -51,6 +53,7 @@ pub(crate) struct WideNode {
 }
 
 impl WideNode {
+    /// Begins a wide node without children.
     pub(super) fn new(first_node: u32) -> Self {
         Self {
             children: [PackedChild::NONE; MOST_LANES],
@@ -59,6 +62,7 @@ impl WideNode {
         }
     }
 
+    /// Sets the link down from the node in a lane.
     pub(super) fn set_child(&mut self, lane: usize, child: Child) {
         self.children[lane] = PackedChild::new(child);
     }

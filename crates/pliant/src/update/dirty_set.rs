@@ -58,6 +58,7 @@ impl DirtySet {
         self.bits[word] |= bits;
     }
 
+    /// Makes room for words up to `last`, and widens the range that has numbers.
     #[inline]
     fn reach_to(&mut self, first: usize, last: usize) {
         if last >= self.bits.len() {

@@ -1,4 +1,4 @@
-//! How far ahead: the level down to which boxes are made before a traversal begins.
+//! Hybrid update: the level down to which boxes are made ahead of a traversal.
 //!
 //! Where a traversal will reach most of a tree, it is cheapest to make all boxes at once. Boxes of
 //! inner nodes are then merged from their children's, and never made from vertices. A traversal

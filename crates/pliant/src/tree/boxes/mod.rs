@@ -69,6 +69,7 @@ impl Quantized {
 pub(crate) struct BlockBoxes<'b>(&'b [EightBoxes]);
 
 impl<'b> BlockBoxes<'b> {
+    /// Returns the boxes of a block.
     #[inline(always)]
     pub(crate) fn of(self, block: BlockId) -> &'b EightBoxes {
         &self.0[block.index()]
@@ -145,6 +146,7 @@ impl BoxSet {
         self.expects(version) && self.is_valid(wide_node)
     }
 
+    /// Whether the boxes of a wide node are valid.
     #[inline(always)]
     pub(crate) fn is_valid(&self, wide_node: WideNodeId) -> bool {
         self.node_stamps[wide_node.index()] == self.stamp
@@ -273,6 +275,7 @@ impl<'b, const N: usize> NodesMut<'b, N> {
 }
 
 impl<'b> LeavesMut<'b> {
+    /// The run of all leaves.
     fn all(stamps: &'b mut [u64], blocks: &'b mut [EightBoxes]) -> Self {
         Self {
             first_leaf: 0,

@@ -46,11 +46,13 @@ pub(crate) enum Over<'v> {
 
 /// Source of boxes: gives the box over any vertices of a body.
 pub(crate) trait BoxSource: Sync {
+    /// The caller's scalar.
     type Scalar: Coordinate;
 
     /// Returns the current shape of the body.
     fn shape(&self) -> &Shape<'_, Self::Scalar>;
 
+    /// Returns the version, which decides whether boxes are valid.
     fn version(&self) -> Version;
 
     /// Returns the box over some vertices.
@@ -164,6 +166,7 @@ impl<'s, S: Coordinate> Source<'s, S> {
         grows_by.map_or(Self::Shape(from), |distance| Self::Grown(grown(distance)))
     }
 
+    /// Returns the current shape of the body.
     #[inline]
     pub(crate) fn shape(&self) -> &Shape<'s, S> {
         match self {
@@ -181,6 +184,7 @@ impl<'s, S: Coordinate> Source<'s, S> {
         }
     }
 
+    /// Returns the version, which decides whether boxes are valid.
     pub(crate) fn version(&self) -> Version {
         of_source!(self, source => source.version())
     }

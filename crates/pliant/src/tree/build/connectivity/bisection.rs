@@ -14,12 +14,12 @@ const COARSE: usize = 48;
 /// Coarsening goes on while it takes away at least one of this many nodes.
 const WORTH_IT: usize = 20;
 
-/// Memory of bisections, of all their steps.
+/// Multilevel bisection; the memory of its steps is reused from graph to graph.
 #[derive(Debug, Default)]
 pub(super) struct Bisection {
     search: Search,
     components: Components,
-    /// Coarser and coarser graphs; as large as the largest graph so far needed.
+    /// Coarser and coarser graphs; as many as the largest graph so far needed.
     levels: Vec<Coarser>,
     coarsening: Coarsening,
     far_ends: FarEnds,

@@ -16,7 +16,7 @@ pub(super) struct Coarser {
     pub(super) coarse_of: Vec<u32>,
 }
 
-/// Memory of contractions.
+/// Contraction of graphs; its memory is reused from graph to graph.
 #[derive(Debug, Default)]
 pub(super) struct Coarsening {
     partners: Vec<u32>,

@@ -38,6 +38,7 @@ impl Components {
         self.sizes.iter().copied().zip(self.halves.iter().copied())
     }
 
+    /// Chooses the sides: the row cut in two, or dealt out largest first if that is more even.
     fn choose_sides(&mut self) {
         let total: u32 = self.sizes.iter().sum();
         // The row is cut before the first component whose middle is beyond the row's middle.

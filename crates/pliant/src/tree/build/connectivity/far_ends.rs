@@ -16,7 +16,7 @@ const FEW_ENDS: usize = 2;
 /// Nodes below which a graph is small.
 const FEW_NODES: usize = 32;
 
-/// Memory of the search for ends and of cuts between them.
+/// Search for far ends, and cuts between them; its memory is reused from graph to graph.
 #[derive(Debug, Default)]
 pub(super) struct FarEnds {
     ends: Vec<u32>,

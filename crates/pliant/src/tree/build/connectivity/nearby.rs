@@ -1,4 +1,4 @@
-//! Bounded search whether a side of a cut stays connected without one of its nodes.
+//! Bounded search: whether a side of a cut stays connected without one of its nodes.
 //!
 //! It does if the node's neighbours on its side reach each other there without it. On a surface
 //! they do so around a vertex, a few steps away. So a search of bounded length can nearly always
@@ -10,7 +10,7 @@ use super::halves::Half;
 /// Most links that are followed.
 const BOUND: usize = 256;
 
-/// Memory of the searches of one graph.
+/// Bounded search near a node; its memory is reused from graph to graph.
 #[derive(Debug, Default)]
 pub(super) struct Nearby {
     /// For each node the last search that looked for it (an even number) or reached it (the odd one

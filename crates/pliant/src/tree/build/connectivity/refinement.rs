@@ -41,7 +41,7 @@ const MOST_PASSES: u32 = 4;
 /// border.
 const TOLERANCE: u32 = 256;
 
-/// Memory of refinements.
+/// Refinement of cuts; its memory is reused from graph to graph.
 #[derive(Debug, Default)]
 pub(super) struct Refinement {
     /// For each node the weight of its links within its side.
@@ -140,6 +140,7 @@ impl<'a> Cut<'a> {
         }
     }
 
+    /// Returns the quality of the cut as it is now.
     fn quality(&self) -> Quality {
         let excess = |side: usize| self.weights[side].saturating_sub(self.limits[side]);
         Quality {
@@ -188,6 +189,7 @@ impl<'a> Cut<'a> {
         }
     }
 
+    /// Whether a node is on the border and this pass has not moved it.
     #[inline]
     fn may_be_moved(&self, node: u32, pass: u32) -> bool {
         self.known.across[node as usize] > 0 && self.known.moved_in[node as usize] < pass

@@ -2,7 +2,7 @@
 
 use super::graph::Graph;
 
-/// Result of searches; the memory is reused by the next.
+/// Breadth-first search: its result; its memory is reused by the next search.
 #[derive(Debug, Default)]
 pub(super) struct Search {
     /// Nodes in the order in which they were reached.

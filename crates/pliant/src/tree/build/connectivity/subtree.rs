@@ -9,7 +9,7 @@ use super::graph::Graph;
 use super::halves::{Half, Shares};
 use super::search::Search;
 
-/// Memory of the search for a subtree.
+/// Search for a subtree to cut off; its memory is reused from graph to graph.
 #[derive(Debug, Default)]
 pub(super) struct Subtree {
     search: Search,

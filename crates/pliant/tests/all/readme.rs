@@ -39,8 +39,9 @@ struct Section {
     methods: Vec<String>,
 }
 
-/// Adds the sections of a module and its submodules, in the order in which rustdoc lists them: as
-/// modules are declared, and from top to bottom.
+/// Adds the sections of a module and its submodules, in the order in which rustdoc lists them.
+///
+/// That is the order of declarations, from top to bottom.
 fn add_sections(file: &Path, sections: &mut Vec<Section>) {
     let text = fs::read_to_string(file).unwrap();
     let (mut heading, mut is_hidden, mut is_world) = ("", false, false);

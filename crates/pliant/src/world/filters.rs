@@ -65,6 +65,8 @@ impl<S: Scalar> World<S> {
 
     /// Pairs of bodies that [`ignore`](Self::ignore) keeps apart, each once, the lower id first;
     /// sorted.
+    ///
+    /// Cost: linear in these pairs.
     pub fn ignored(&self) -> Vec<[BodyId; 2]> {
         self.state().common.bodies.ignored()
     }
@@ -80,6 +82,8 @@ impl<S: Scalar> World<S> {
     /// that an [`Edit`](crate::Edit) splits from another has that one's group; other new vertices
     /// have group 0. Groups of empty vertices are not looked at.
     ///
+    /// Cost: O(n).
+    ///
     /// # Errors
     ///
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody),
@@ -90,7 +94,7 @@ impl<S: Scalar> World<S> {
         found.set_groups(groups).map_err(about(body))
     }
 
-    /// Groups of the vertices of a body, shape (n,).
+    /// Groups of the vertices of a body, shape (n,). Cost: O(n).
     ///
     /// # Errors
     ///
@@ -105,6 +109,8 @@ impl<S: Scalar> World<S> {
     /// The broad phase then works with this box, which stands still, and looks at the exact box
     /// only where loose boxes overlap. Until it is taken away, a position outside it is refused. It
     /// pays for many bodies that move on their spot.
+    ///
+    /// Cost: O(n).
     ///
     /// # Errors
     ///

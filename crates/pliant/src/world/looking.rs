@@ -111,7 +111,7 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.mesh().vertex_order())
     }
 
-    /// Shape of a body's tree, in numbers.
+    /// Shape of a body's tree: its depth, and how many nodes and leaves it has. Cost: at most O(m).
     ///
     /// # Errors
     ///
@@ -128,6 +128,8 @@ impl<S: Scalar> World<S> {
     ///
     /// Triangles that an [`Edit`](crate::Edit) adds are in trees of their own. Each is cut at the
     /// level, in parts behind the others. A number that is left empty is in part [`u32::MAX`].
+    ///
+    /// Cost: O(m).
     ///
     /// # Errors
     ///
@@ -157,6 +159,8 @@ impl<S: Scalar> World<S> {
     /// level stands for itself. The boxes are exactly the triangles' own. The tree's boxes, in
     /// single precision, are equal or a rounding larger. The call makes no box of the tree, and
     /// reads none.
+    ///
+    /// Cost: O(m).
     ///
     /// # Errors
     ///
@@ -188,6 +192,8 @@ impl<S: Scalar> World<S> {
     ///
     /// Capacity counts, used or not. Threads do not count, nor does the memory that a running query
     /// takes besides.
+    ///
+    /// Cost: O(b) for b bodies.
     ///
     /// ```
     /// let mut world = pliant::World::<f32>::new();

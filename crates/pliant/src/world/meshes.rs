@@ -100,7 +100,8 @@ impl<S: Scalar> World<S> {
         self.verbs.apply(edit)
     }
 
-    /// Flags of triangle numbers, shape (m,): false where an edit has left a number empty.
+    /// Flags of triangle numbers, shape (m,): false where an edit has left a number empty. Cost:
+    /// O(m).
     ///
     /// # Errors
     ///
@@ -109,7 +110,8 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.mesh().live_triangles())
     }
 
-    /// Flags of vertex numbers, shape (n,): false where an edit has left a number empty.
+    /// Flags of vertex numbers, shape (n,): false where an edit has left a number empty. Cost:
+    /// O(n).
     ///
     /// # Errors
     ///

@@ -90,7 +90,7 @@ impl<S: Scalar> World<S> {
         })
     }
 
-    /// Removes a body, whose id will not be used again.
+    /// Removes a body, whose id will not be used again. Cost: O(b) for b bodies.
     ///
     /// # Errors
     ///

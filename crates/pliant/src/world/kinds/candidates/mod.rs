@@ -38,7 +38,7 @@ impl<S: Scalar> World<S> {
     /// Filters keep bodies apart as in [`intersections`](Self::intersections), and
     /// [`set_vertex_groups`](Self::set_vertex_groups) keeps apart parts of them.
     ///
-    /// Errors and cost are said at [`Query`].
+    /// [`Query`] says the errors, [`Query::all`] the cost.
     ///
     /// ```
     /// # use pliant::{Selection, World};

@@ -27,7 +27,7 @@ impl<S: Scalar> World<S> {
     /// much is wanted. Within a body, triangles that share a vertex of the mesh are left out, for
     /// they always touch. Surfaces only: a body wholly inside another meets none of its triangles.
     ///
-    /// Errors and cost are said at [`Query`].
+    /// [`Query`] says the errors, [`Query::all`] the cost.
     ///
     /// ```
     /// # use pliant::{Selection, World};

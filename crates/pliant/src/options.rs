@@ -108,8 +108,8 @@ pub enum Update {
         /// "an efficient choice". There are two exceptions, in which all levels are made:
         ///
         /// - in a body that meets itself, where every leaf meets at least itself;
-        /// - after a query that looked at the triangles of one leaf in ten or more. Trees whose
-        ///   leaves hold one triangle are left out.
+        /// - after a query that looked at the triangles of one leaf in ten or more; never where
+        ///   leaves hold one triangle.
         level: Option<u32>,
         /// Levels that are made at once, bottom-up, where a stale box is reached. The paper found
         /// one level, which is top-down, the fastest.

@@ -268,6 +268,15 @@ impl fmt::Display for ErrorKind {
                 "given twice, where two different bodies are needed; give another, or ask about \
                  the body with itself"
             ),
+            _ => self.about_a_question(f),
+        }
+    }
+}
+
+impl ErrorKind {
+    /// Message of a refused question, of a motion or of single pairs.
+    fn about_a_question(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
             Self::TooManyHits { limit } => write!(
                 f,
                 "more hits than the {limit} that were allowed; allow more, or visit them one by one"
@@ -312,9 +321,7 @@ impl fmt::Display for ErrorKind {
             _ => self.about_an_edit(f),
         }
     }
-}
 
-impl ErrorKind {
     /// Message of a refused edit.
     fn about_an_edit(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

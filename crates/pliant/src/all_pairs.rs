@@ -128,7 +128,7 @@ impl ElementPairs {
         self,
         a: &Moving<S>,
         other: Option<&Moving<S>>,
-        test: impl Fn(Part<S>, Part<S>) -> bool,
+        test: impl Fn(Element<S>, Element<S>) -> bool,
     ) -> Result<Vec<[u32; 2]>, Error> {
         let found = self.all(a, other, |a, b| test(a, b).then_some(()))?;
         Ok(without(found))
@@ -140,7 +140,7 @@ impl ElementPairs {
         self,
         a: &Moving<S>,
         other: Option<&Moving<S>>,
-        find: impl Fn(Part<S>, Part<S>) -> Option<T>,
+        find: impl Fn(Element<S>, Element<S>) -> Option<T>,
     ) -> Result<Vec<([u32; 2], T)>, Error> {
         let b = other.unwrap_or(a);
         a.validate()?;
@@ -170,10 +170,10 @@ fn numbered<const C: usize>(elements: &[[u32; C]]) -> Vec<(u32, Vec<u32>)> {
 }
 
 /// Element of a body, by its vertices.
-pub(crate) type Part<'p, 'm, S> = (&'p Moving<'m, S>, &'p [u32]);
+pub(crate) type Element<'p, 'm, S> = (&'p Moving<'m, S>, &'p [u32]);
 
 /// Whether two elements may be near each other: they share no vertex, and their groups let them.
-fn may_meet<S: Real>((a, of_a): Part<S>, (b, of_b): Part<S>, itself: bool) -> bool {
+fn may_meet<S: Real>((a, of_a): Element<S>, (b, of_b): Element<S>, itself: bool) -> bool {
     let pairs = || of_a.iter().flat_map(|&i| of_b.iter().map(move |&j| (i, j)));
     let are_kept_apart = pairs().all(|(i, j)| a.group(i) != 0 && a.group(i) == b.group(j));
     let share = itself && pairs().any(|(i, j)| i == j);

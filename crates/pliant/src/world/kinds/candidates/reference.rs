@@ -1,6 +1,6 @@
 //! Reference of candidates: all pairs of elements whose boxes are within a margin.
 
-use crate::all_pairs::{ElementPairs, Moving, Part};
+use crate::all_pairs::{Element, ElementPairs, Moving};
 use crate::error::Error;
 use crate::geometry::Real;
 use crate::world::scalar::Scalar;
@@ -59,6 +59,6 @@ pub fn self_edge_edge_pairs<S: Scalar>(
 }
 
 /// Whether the boxes of two elements, over both ends of their motions, are within twice `radius`.
-fn near<S: Real>(radius: f64) -> impl Fn(Part<S>, Part<S>) -> bool {
+fn near<S: Real>(radius: f64) -> impl Fn(Element<S>, Element<S>) -> bool {
     move |(a, of_a), (b, of_b)| a.box_of(of_a).are_within(&b.box_of(of_b), 2.0 * radius)
 }

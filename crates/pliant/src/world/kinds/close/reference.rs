@@ -1,6 +1,6 @@
 //! Reference of close pairs: all pairs of elements at most a distance apart, decided in integers.
 
-use crate::all_pairs::{ElementPairs, Moving, Part};
+use crate::all_pairs::{Element, ElementPairs, Moving};
 use crate::error::Error;
 use crate::geometry::Real;
 use crate::world::scalar::Scalar;
@@ -61,7 +61,7 @@ pub fn self_close_edge_edge_pairs<S: Scalar>(
 }
 
 /// Whether two elements are at most `distance` apart in the present shape.
-fn close<S: Real>(distance: f64) -> impl Fn(Part<S>, Part<S>) -> bool {
+fn close<S: Real>(distance: f64) -> impl Fn(Element<S>, Element<S>) -> bool {
     move |(a, of_a), (b, of_b)| {
         // Whatever is further apart on one axis is further apart.
         if !a.box_now(of_a).are_within(&b.box_now(of_b), distance) {

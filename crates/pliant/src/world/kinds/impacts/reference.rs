@@ -1,7 +1,7 @@
 //! Reference of impacts: all pairs of elements that meet on the way, and when first, decided in
 //! integers.
 
-use crate::all_pairs::{ElementPairs, Moving, Part};
+use crate::all_pairs::{Element, ElementPairs, Moving};
 use crate::error::Error;
 use crate::geometry::Real;
 use crate::world::scalar::Scalar;
@@ -79,7 +79,10 @@ fn that_meet<S: Real>(
 }
 
 /// Converts two elements to what the exact decision takes, if their boxes overlap.
-fn elements_in_motion<S: Real>((a, of_a): Part<S>, (b, of_b): Part<S>) -> Option<motion::Moving> {
+fn elements_in_motion<S: Real>(
+    (a, of_a): Element<S>,
+    (b, of_b): Element<S>,
+) -> Option<motion::Moving> {
     if !a.box_of(of_a).are_within(&b.box_of(of_b), 0.0) {
         return None;
     }

@@ -2,7 +2,8 @@
 //!
 //! The update, the traversal, the sorting and what users call are the same for every kind. A kind says what is different: what its boxes
 //! are made of and which set of them it uses, what two leaves do to each other, its rule for neighbours in the mesh, and what a hit is.
-//! `intersections`, `contacts`, `candidates`, `close` and `impacts` are kinds; the `hit`s of each are what callers get.
+//! `intersections`, `contacts`, `candidates`, `close` and `impacts` are kinds; the `hit`s of each are
+//! what callers get.
 
 mod candidates;
 mod close;

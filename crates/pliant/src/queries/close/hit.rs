@@ -1,4 +1,4 @@
-//! Close pairs, as callers get them: two elements, how far apart they are, and where they are closest.
+//! Close pairs, as callers get them: how far apart two elements are, and their closest points.
 
 use crate::queries::{EdgeEdge, Pair, VertexTriangle};
 

@@ -50,17 +50,20 @@ impl Elements {
             index: None,
         };
         let mut is_given = vec![false; callers.edges.len()];
-        elements.give_to_triangles(order, TreeTriangle(0), 0, stop, |triangle, side, _| {
-            let ends = SIDES[side].map(|i| order.corners(triangle)[i]);
-            // An orphan is called what its alias is.
-            if ends.iter().any(|end| order.orphans().has(end.0)) {
-                return None;
-            }
-            // A triangle that was taken out may have had edges of its own.
-            let number = callers.number_of(ends.map(|end| order.caller_vertex(end).0))?;
-            let was_given = std::mem::replace(&mut is_given[number as usize], true);
-            (!was_given).then_some(number)
-        })?;
+        let numbers = |triangle: TreeTriangle| {
+            let corners = order.corners(triangle).map(|corner| {
+                // An orphan is called what its alias is.
+                let is_orphan = order.orphans().has(corner.0);
+                (!is_orphan).then(|| order.caller_vertex(corner).0)
+            });
+            SIDES.map(|[i, j]| {
+                // A triangle that was taken out may have had edges of its own.
+                let ends = [corners[i]?, corners[j]?];
+                callers.number_of(ends)
+            })
+        };
+        let is_new = |number: u32, _| !std::mem::replace(&mut is_given[number as usize], true);
+        elements.give_to_triangles(order, TreeTriangle(0), 0, stop, numbers, is_new)?;
         elements.callers = callers.edges;
         Some(elements)
     }
@@ -68,30 +71,33 @@ impl Elements {
     /// Gives triangles from a place on, in tree order, the vertices and edges that none before them
     /// has.
     ///
-    /// The first `used` vertices are known. `new_edge` is told a triangle, a side of it, and the
-    /// number in tree order that its edge would have. It returns the caller's number of the edge if
-    /// none has it yet. `None` if `stop` said so.
+    /// The first `used` vertices are known. `numbers` are the caller's of the sides of a triangle that
+    /// are edges. `is_new` says whether none has an edge yet, being told the number in tree order that
+    /// it would have. `None` if `stop` said so.
     fn give_to_triangles(
         &mut self,
         order: &Order,
         first: TreeTriangle,
         mut used: u32,
         stop: &dyn Fn() -> bool,
-        mut new_edge: impl FnMut(TreeTriangle, usize, u32) -> Option<u32>,
+        numbers: impl Fn(TreeTriangle) -> [Option<u32>; 3],
+        mut is_new: impl FnMut(u32, u32) -> bool,
     ) -> Option<()> {
-        for at in first.0..order.all_corners().len() as u32 {
-            let corners = order.corners(TreeTriangle(at));
+        for at in (first.0..order.all_corners().len() as u32).map(TreeTriangle) {
+            let corners = order.corners(at);
             self.firsts.push([used, self.ends.len() as u32]);
             used = corners
                 .iter()
                 .fold(used, |used, corner| used.max(corner.0 + 1));
-            for (side, ends) in SIDES.into_iter().enumerate() {
-                if let Some(number) = new_edge(TreeTriangle(at), side, self.ends.len() as u32) {
-                    self.ends.push(ends.map(|i| corners[i]));
+            for ([i, j], number) in SIDES.into_iter().zip(numbers(at)) {
+                if let Some(number) = number
+                    && is_new(number, self.ends.len() as u32)
+                {
+                    self.ends.push([corners[i], corners[j]]);
                     self.numbers.push(number);
                 }
             }
-            if at.is_multiple_of(UNINTERRUPTED as u32) && stop() {
+            if at.0.is_multiple_of(UNINTERRUPTED as u32) && stop() {
                 return None;
             }
         }

@@ -39,9 +39,11 @@ impl SortedEdges {
             let end = next[vertex] as usize;
             let others = &mut higher[start..end];
             others.sort_unstable();
-            let each = others.chunk_by(|a, b| a == b);
-            let wanted = each.filter(|same| is_wanted(same.len()));
-            edges.extend(wanted.map(|same| [vertex as u32, same[0]]));
+            for same in others.chunk_by(|a, b| a == b) {
+                if is_wanted(same.len()) {
+                    edges.push([vertex as u32, same[0]]);
+                }
+            }
             start = end;
             if vertex % UNINTERRUPTED == 0 && stop() {
                 return None;
@@ -93,14 +95,22 @@ fn sum_up(counts: &mut [u32]) {
     }
 }
 
-/// Calls `found` with the edges of all triangles. Returns `None` if `stop` returned true.
+/// Calls `found` with the edges of all triangles, the smaller end first. Returns `None` if `stop`
+/// returned true. A triangle that runs along an edge twice has it once.
 pub(super) fn each_edge(
     triangles: &[[u32; 3]],
     stop: &dyn Fn() -> bool,
     mut found: impl FnMut([u32; 2]),
 ) -> Option<()> {
     for some in triangles.chunks(UNINTERRUPTED) {
-        some.iter().flat_map(edges_of).for_each(&mut found);
+        for &[a, b, c] in some {
+            let mut sides = sides([a, b, c]).into_iter();
+            if a != b && b != c && c != a {
+                sides.for_each(&mut found);
+            } else if let Some(edge) = sides.find(|[low, high]| low != high) {
+                found(edge);
+            }
+        }
         if stop() {
             return None;
         }
@@ -108,14 +118,10 @@ pub(super) fn each_edge(
     Some(())
 }
 
-/// Edges of a triangle, the smaller end first. With two equal corners it has one edge, with three
-/// none.
-pub(super) fn edges_of(&[a, b, c]: &[u32; 3]) -> impl Iterator<Item = [u32; 2]> {
-    let has_two = a == b || b == c || c == a;
-    let edges = sides([a, b, c])
-        .into_iter()
-        .filter(|[low, high]| low != high);
-    edges.take(if has_two { 1 } else { 3 })
+/// Sides of a triangle that have two different ends.
+#[cfg(test)]
+pub(super) fn edges_of(&corners: &[u32; 3]) -> impl Iterator<Item = [u32; 2]> {
+    sides(corners).into_iter().filter(|[low, high]| low != high)
 }
 
 /// Ends of the three sides of a triangle, the smaller first, from its first corner on.

@@ -54,48 +54,54 @@ impl Elements {
             index: None,
         };
         let mut is_given = vec![false; callers.edges.len()];
-        elements.give_to_triangles(order, TreeTriangle(0), 0, stop, |triangle, side, _| {
-            let ends = SIDES[side].map(|i| order.corners(triangle)[i]);
-            // An orphan goes by the number of its alias, which may have no such edge.
-            if ends.iter().any(|end| order.orphans().has(end.0)) {
-                return None;
-            }
-            // Edges that only removed triangles have are no edges of the mesh.
-            let number = callers.number_of(ends.map(|end| order.caller_vertex(end).0))?;
-            let was_given = std::mem::replace(&mut is_given[number as usize], true);
-            (!was_given).then_some(number)
-        })?;
+        let numbers = |triangle: TreeTriangle| {
+            let corners = order.corners(triangle).map(|corner| {
+                // An orphan goes by the number of its alias, which may have no such edge.
+                let is_orphan = order.orphans().has(corner.0);
+                (!is_orphan).then(|| order.caller_vertex(corner).0)
+            });
+            SIDES.map(|[i, j]| {
+                // Edges that only removed triangles have are no edges of the mesh.
+                let ends = [corners[i]?, corners[j]?];
+                callers.number_of(ends)
+            })
+        };
+        let is_new = |number: u32, _| !std::mem::replace(&mut is_given[number as usize], true);
+        elements.give_to_triangles(order, TreeTriangle(0), 0, stop, numbers, is_new)?;
         elements.callers = callers.edges;
         Some(elements)
     }
 
     /// Assigns to each triangle from `first` on the vertices and edges that no earlier one has.
     ///
-    /// Goes in tree order. The first `used` vertices are assigned before. `new_edge` takes a
-    /// triangle, a side of it, and the number in tree order that its edge would get. It returns the
-    /// caller's number of the edge, if no triangle has it yet. Returns `None` if `stop` returned
-    /// true.
+    /// Goes in tree order. The first `used` vertices are assigned before. `numbers` gives the
+    /// caller's numbers of the sides of a triangle that are edges. `is_new` says whether no triangle
+    /// has the edge yet; it is told the number in tree order that it would get. Returns `None` if
+    /// `stop` returned true.
     fn give_to_triangles(
         &mut self,
         order: &Order,
         first: TreeTriangle,
         mut used: u32,
         stop: &dyn Fn() -> bool,
-        mut new_edge: impl FnMut(TreeTriangle, usize, u32) -> Option<u32>,
+        numbers: impl Fn(TreeTriangle) -> [Option<u32>; 3],
+        mut is_new: impl FnMut(u32, u32) -> bool,
     ) -> Option<()> {
-        for at in first.0..order.all_corners().len() as u32 {
-            let corners = order.corners(TreeTriangle(at));
+        for at in (first.0..order.all_corners().len() as u32).map(TreeTriangle) {
+            let corners = order.corners(at);
             self.firsts.push([used, self.ends.len() as u32]);
             used = corners
                 .iter()
                 .fold(used, |used, corner| used.max(corner.0 + 1));
-            for (side, ends) in SIDES.into_iter().enumerate() {
-                if let Some(number) = new_edge(TreeTriangle(at), side, self.ends.len() as u32) {
-                    self.ends.push(ends.map(|i| corners[i]));
+            for ([i, j], number) in SIDES.into_iter().zip(numbers(at)) {
+                if let Some(number) = number
+                    && is_new(number, self.ends.len() as u32)
+                {
+                    self.ends.push([corners[i], corners[j]]);
                     self.numbers.push(number);
                 }
             }
-            if at.is_multiple_of(UNINTERRUPTED as u32) && stop() {
+            if at.0.is_multiple_of(UNINTERRUPTED as u32) && stop() {
                 return None;
             }
         }

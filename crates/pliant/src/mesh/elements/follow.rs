@@ -145,19 +145,28 @@ impl Elements {
         self.ends.truncate(first_edge as usize);
         self.numbers.truncate(first_edge as usize);
         self.firsts.truncate(first.index());
-        // Never `None`: nothing stops it.
-        let _ = self.give_to_triangles(order, first, used_before, &|| false, |at, side, next| {
+        let EdgeIndex {
+            of_triangles,
+            tree_edges,
+            ..
+        } = &mut *index;
+        let numbers = |at: TreeTriangle| {
             if gone_triangles.has(at.0) {
-                return None;
+                return [None; 3];
             }
-            let number = index.of_triangles[order.caller_triangle(at).index()][side];
-            let known = index.tree_edges.get_mut(number as usize)?;
+            let edges = of_triangles[order.caller_triangle(at).index()];
+            edges.map(|number| Some(number).filter(|&number| number != UNSEEN))
+        };
+        let is_new = |number: u32, next| {
+            let known = &mut tree_edges[number as usize];
             let is_new = *known == UNSEEN;
             if is_new {
                 *known = next;
             }
-            is_new.then_some(number)
-        });
+            is_new
+        };
+        // Nobody stops it.
+        let _ = self.give_to_triangles(order, first, used_before, &|| false, numbers, is_new);
         self.index = Some(index);
     }
 }

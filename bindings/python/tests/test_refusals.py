@@ -118,11 +118,11 @@ WORLD = pliant.Selection.WORLD
 ADVICE: list[tuple[Callable[[pliant.World], Any], str]] = [
     (lambda w: w.add(FACES + 1, FLAT), "if the faces are counted from 1, give faces - 1"),
     (lambda w: w.set_positions(0, FLAT[1:]), "give one for each vertex, empty ones included"),
-    (lambda w: w.write_positions(0, lambda out: None), "every row of the array that it is given"),
+    (lambda w: w.write_positions(0, lambda out: None), "fill every row of the buffer"),
     (lambda w: w.set_positions(1, FLAT + 5), "World.set_loose_box does either"),
-    (lambda w: w.remove(7), "World.bodies() lists all that are there"),
-    (lambda w: w.remove(-1), "World.bodies() lists all that are there"),
-    (lambda w: w.fuse(0, 0), "or give Selection.within(body) where a selection is taken"),
+    (lambda w: w.remove(7), "bodies() lists all that are there"),
+    (lambda w: w.remove(-1), "bodies() lists all that are there"),
+    (lambda w: w.fuse(0, 0), "for that, give Selection.within(body) where a selection is taken"),
     (
         lambda w: w.intersections().all(at_most=0),
         "this is at_most=, and visit_some(...) makes no list",
@@ -166,7 +166,7 @@ def test_a_refusal_says_what_to_do_in_words_of_python(
         ),
         (lambda e: (e.merge_vertices(0, 1), e.merge_vertices(0, 1)), "Edit.place_vertex does that"),
         (lambda e: e.place_vertex(0, [0.0, 0, 0]), "World.set_positions does that"),
-        (lambda e: e.split_vertex(15, [0]), "give split_vertex triangles that have it .*"),
+        (lambda e: e.split_vertex(15, [0]), "give triangles that have it for a corner"),
     ],
     ids=range(4),
 )

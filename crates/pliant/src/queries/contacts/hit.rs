@@ -2,6 +2,10 @@
 
 use crate::queries::Pair;
 use crate::sort::Numbered;
+/// Kind of a contact: crossing, overlapping, or only touching.
+///
+#[doc = include_str!("../../../pictures/contacts.svg")]
+///
 pub use pliant_exact::ContactKind;
 
 /// Two triangles that intersect, and the kind of their contact.

@@ -330,7 +330,7 @@ impl Check {
             interval = interval.transpose()?)?))
     }
 
-    /// Places of the frames so far, a tuple of at most 1000 Life, most pairs in a frame first.
+    /// Places of the frames so far, at most 1000 Life, most pairs in a frame first.
     #[getter]
     fn places<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyTuple>> {
         let (_, lives) = alone_with(py, &self.running, |running| Ok(running.places()))?;

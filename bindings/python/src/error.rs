@@ -168,25 +168,17 @@ impl From<pliant::Error> for Refused {
 /// Advice about a call that the library refused.
 pub(crate) fn after_calling(kind: &ErrorKind) -> Option<&'static str> {
     Some(match kind {
-        ErrorKind::TooLarge { .. } => "split the mesh",
-        ErrorKind::TooManyBodies => "go on with a new pliant.World()",
         ErrorKind::VertexOutOfRange {
             vertex, vertices, ..
         } if *vertex as usize == *vertices => "if the faces are counted from 1, give faces - 1",
-        ErrorKind::WrongLength { .. } => "give one for each vertex, empty ones included",
-        ErrorKind::NotWritten { .. } => "write must fill every row of the array that it is given",
         ErrorKind::OutsideLooseBox { .. } => "World.set_loose_box does either",
-        ErrorKind::NoSuchBody => "World.bodies() lists all that are there",
-        ErrorKind::SameBody => {
-            "name two different bodies, or give Selection.within(body) where a selection is taken"
-        }
+        ErrorKind::SameBody => "for that, give Selection.within(body) where a selection is taken",
         ErrorKind::TooManyHits { .. } => "this is at_most=, and visit_some(...) makes no list",
         ErrorKind::BadMargin { .. } => "this is the argument radius",
         ErrorKind::DifferentCounts { .. } => "start and end have one row for each pair",
         ErrorKind::EmptyTriangle { .. } => "Edit.set_triangle does that",
         ErrorKind::EmptyVertex { .. } => "Edit.place_vertex does that",
         ErrorKind::VertexInUse { .. } => "World.set_positions does that",
-        ErrorKind::NotACorner { .. } => "give split_vertex triangles that have it for a corner",
         ErrorKind::OutdatedEdit => "World.edit begins one",
         _ => return None,
     })

@@ -400,8 +400,8 @@ impl World {
     /// world is in use until write returns. Prefer set_positions with an array of your own where
     /// speed matters: this form copies more.
     ///
-    /// Raises pliant.Error: NotWritten for a row left NaN, and the kinds of set_positions. The
-    /// exceptions of write pass through. Cost: O(n).
+    /// Raises pliant.Error: NoSuchBody, NotWritten for a row left NaN, and the other kinds of
+    /// set_positions. The exceptions of write pass through. Cost: O(n).
     fn write_positions(&self, py: Python<'_>, body: Body, write: &Any<'_>) -> Result<()> {
         let body = body.0;
         // Until it is written, so that what is written is for the body that was asked about.
@@ -426,8 +426,9 @@ impl World {
     /// A motion replaces the one before. It ends with finish_motion, advance_motion, or the next
     /// shape or mesh of the body.
     ///
-    /// Raises pliant.Error: the kinds of set_positions. The body then keeps the motion that it has.
-    /// Cost: O(n).
+    /// Raises pliant.Error: NoSuchBody, BadArray, Precision, WrongLength, BadPosition,
+    /// OutsideLooseBox, NeedsSubnormals, as set_positions. The body then keeps the motion that it
+    /// has. Cost: O(n).
     fn set_motion(&self, py: Python<'_>, body: Body, end: &Any<'_>) -> Result<()> {
         self.with_shape(py, body, end, State::set_motion)
     }
@@ -667,7 +668,8 @@ impl World {
     /// inside another meets none of its triangles. The default selection leaves out each body with
     /// itself: see Selection.EVERYTHING.
     ///
-    /// Nothing is computed until the query is asked. Errors and cost are at Query.
+    /// Nothing is computed until the query is asked, which raises pliant.Error: NoSuchBody,
+    /// SameBody, TooManyHits, Busy. Cost: see Query.all.
     #[pyo3(signature = (of=Selection::WORLD))]
     fn intersections(&self, of: Selection) -> Query {
         Query::new(&self.state, of, Pairs::Intersections)
@@ -683,8 +685,8 @@ impl World {
     ///     query = world.contacts(Selection.WORLD, only=ContactKind.CROSSING)
     ///     pairs, kind = query.all()           # (k, 4) uint32, (k,) uint8
     ///
-    /// Nothing is computed until the query is asked. Errors are at Query. A value that is no
-    /// ContactKind raises ValueError.
+    /// Nothing is computed until the query is asked, which raises pliant.Error: NoSuchBody,
+    /// SameBody, TooManyHits, Busy. A value of only that is no ContactKind raises ValueError here.
     ///
     /// Cost: that of intersections. Pairs whose kind rounded signs leave open take their exact
     /// signs once more.
@@ -693,11 +695,11 @@ impl World {
         ContactQuery::new(&self.state, of, Contacts { only })
     }
 
-    /// Asks which vertices are near which triangles: a Query, all() of which is (k, 4) uint32.
+    /// Asks which vertices are near which triangles: a Query of rows (k, 4) uint32.
     ///
-    /// A row is body, vertex, body, triangle. For solvers that then measure, or find when they
-    /// touch; edge_edge_candidates is the other half. With a motion, the whole way to its end
-    /// counts.
+    /// all() is sorted; a row is body, vertex, body, triangle. For solvers that then measure, or
+    /// find when they touch; edge_edge_candidates is the other half. With a motion, the whole way
+    /// to its end counts.
     ///
     /// The box of an element is the hull of its corners, at both ends of a motion. A vertex and a
     /// triangle are a candidate if on every axis the gap of their boxes is at most 2 radius,
@@ -707,20 +709,23 @@ impl World {
     /// Of two bodies, vertices of either and triangles of the other are looked at. Filters and
     /// set_vertex_groups keep elements apart.
     ///
-    /// Nothing is computed until the query is asked. Errors are at Query: BadMargin if radius is
-    /// negative, infinite or NaN.
+    /// Nothing is computed until the query is asked, which raises pliant.Error: NoSuchBody,
+    /// SameBody, TooManyHits, Busy. BadMargin if radius is negative, infinite or NaN. Cost: see
+    /// Query.all.
     fn vertex_triangle_candidates(&self, of: Selection, radius: f64) -> Query {
         Query::new(&self.state, of, Pairs::VertexTriangleCandidates(radius))
     }
 
-    /// Asks which edges are near which edges: a Query, all() of which is (k, 4) uint32.
+    /// Asks which edges are near which edges: a Query of rows (k, 4) uint32.
     ///
-    /// A row is body, edge, body, edge. The smaller (body, edge) comes first, or the body that the
-    /// selection names first. Edges are numbered by rows of edges(body). Edges with an end in
-    /// common are left out. All else is as for vertex_triangle_candidates, radius included.
+    /// all() is sorted; a row is body, edge, body, edge. The smaller (body, edge) comes first, or
+    /// the body that the selection names first. Edges are numbered by rows of edges(body). Edges
+    /// with an end in common are left out. All else is as for vertex_triangle_candidates, radius
+    /// included.
     ///
-    /// Nothing is computed until the query is asked. Errors are at Query: BadMargin if radius is
-    /// negative, infinite or NaN.
+    /// Nothing is computed until the query is asked, which raises pliant.Error: NoSuchBody,
+    /// SameBody, TooManyHits, Busy. BadMargin if radius is negative, infinite or NaN. Cost: see
+    /// Query.all.
     fn edge_edge_candidates(&self, of: Selection, radius: f64) -> Query {
         Query::new(&self.state, of, Pairs::EdgeEdgeCandidates(radius))
     }
@@ -734,7 +739,9 @@ impl World {
     /// looked at. The query looks at the pairs of vertex_triangle_candidates: corners of the
     /// triangle itself are left out, filters and vertex groups count.
     ///
-    /// Nothing is computed until the query is asked. Errors are at CloseQuery.
+    /// Nothing is computed until the query is asked, which raises pliant.Error: NoSuchBody,
+    /// SameBody, TooManyHits, Busy. BadDistance if distance is negative, infinite or NaN. Cost: see
+    /// CloseQuery.all.
     fn close_vertex_triangle_pairs(&self, of: Selection, distance: f64) -> CloseQuery {
         CloseQuery::new(&self.state, of, Close::VertexTriangle(distance))
     }
@@ -744,7 +751,9 @@ impl World {
     /// Its all() is a ClosePairs. Edges are numbered by rows of edges(body). Edges with an end in
     /// common are left out. All else is as for close_vertex_triangle_pairs.
     ///
-    /// Nothing is computed until the query is asked. Errors are at CloseQuery.
+    /// Nothing is computed until the query is asked, which raises pliant.Error: NoSuchBody,
+    /// SameBody, TooManyHits, Busy. BadDistance if distance is negative, infinite or NaN. Cost: see
+    /// CloseQuery.all.
     fn close_edge_edge_pairs(&self, of: Selection, distance: f64) -> CloseQuery {
         CloseQuery::new(&self.state, of, Close::EdgeEdge(distance))
     }
@@ -755,7 +764,9 @@ impl World {
     /// that intersect are close, at distance 0. Within a body, triangles that share a vertex are
     /// left out. Decided exactly, in the present shape.
     ///
-    /// Nothing is computed until the query is asked. Errors are at CloseQuery.
+    /// Nothing is computed until the query is asked, which raises pliant.Error: NoSuchBody,
+    /// SameBody, TooManyHits, Busy. BadDistance if distance is negative, infinite or NaN. Cost: see
+    /// CloseQuery.all.
     fn close_triangle_pairs(&self, of: Selection, distance: f64) -> CloseQuery {
         CloseQuery::new(&self.state, of, Close::Triangles(distance))
     }
@@ -804,8 +815,9 @@ impl World {
     /// it meets at the start. The query looks at the pairs of vertex_triangle_candidates: corners
     /// of the triangle itself are left out, filters and vertex groups count.
     ///
-    /// Nothing is computed until the query is asked. Errors are at ImpactQuery. first() is much
-    /// faster than all().
+    /// Nothing is computed until the query is asked, which raises pliant.Error: NoSuchBody,
+    /// SameBody, TooManyHits, Busy. BadWidth if width is negative, infinite or NaN. Cost: see
+    /// ImpactQuery.all; first() is much faster.
     #[pyo3(signature = (of, width=1e-6))]
     fn vertex_triangle_impacts(&self, of: Selection, width: f64) -> ImpactQuery {
         ImpactQuery::new(&self.state, of, Impacts::VertexTriangle(width))
@@ -816,7 +828,8 @@ impl World {
     /// Its all() is an Impacts. Edges are numbered by rows of edges(body). Edges with an end in
     /// common are left out. All else is as for vertex_triangle_impacts, width included.
     ///
-    /// Nothing is computed until the query is asked. Errors are at ImpactQuery.
+    /// Nothing is computed until the query is asked, which raises pliant.Error: NoSuchBody,
+    /// SameBody, TooManyHits, Busy. BadWidth if width is negative, infinite or NaN.
     #[pyo3(signature = (of, width=1e-6))]
     fn edge_edge_impacts(&self, of: Selection, width: f64) -> ImpactQuery {
         ImpactQuery::new(&self.state, of, Impacts::EdgeEdge(width))

@@ -39,7 +39,9 @@ def test_readme(readme: Path) -> None:
     assert len(names["hits"]) > 0
 
 
-def test_examples_of_the_readme(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_examples_of_the_readme(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     """All its blocks of Python behind the first, one after the other; they assert what they say."""
     monkeypatch.chdir(tmp_path)
     names: dict[str, Any] = {}

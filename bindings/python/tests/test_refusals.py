@@ -118,12 +118,15 @@ WORLD = pliant.Selection.WORLD
 ADVICE: list[tuple[Callable[[pliant.World], Any], str]] = [
     (lambda w: w.add(FACES + 1, FLAT), "if the faces are counted from 1, give faces - 1"),
     (lambda w: w.set_positions(0, FLAT[1:]), "give one for each vertex, empty ones included"),
-    (lambda w: w.write_positions(0, lambda out: None), "write must fill every row of the array that it is given"),
+    (lambda w: w.write_positions(0, lambda out: None), "fill every row of the buffer"),
     (lambda w: w.set_positions(1, FLAT + 5), "World.set_loose_box does either"),
-    (lambda w: w.remove(7), "World.bodies() lists all that are there"),
-    (lambda w: w.remove(-1), "World.bodies() lists all that are there"),
-    (lambda w: w.fuse(0, 0), "or give Selection.within(body) where a selection is taken"),
-    (lambda w: w.intersections().all(at_most=0), "this is at_most=, and visit_some(...) makes no list"),
+    (lambda w: w.remove(7), "bodies() lists all that are there"),
+    (lambda w: w.remove(-1), "bodies() lists all that are there"),
+    (lambda w: w.fuse(0, 0), "for that, give Selection.within(body) where a selection is taken"),
+    (
+        lambda w: w.intersections().all(at_most=0),
+        "this is at_most=, and visit_some(...) makes no list",
+    ),
     (lambda w: w.edge_edge_candidates(WORLD, -1).all(), "this is the argument radius"),
     (lambda w: w.close_edge_edge_pairs(WORLD, -1).all(), "this is the argument distance"),
     (lambda w: w.distance(0, 1, -1), "this is the argument cut_off"),
@@ -132,15 +135,23 @@ ADVICE: list[tuple[Callable[[pliant.World], Any], str]] = [
     (lambda w: w.free_step(WORLD, -1), "this is the argument min_distance"),
     (lambda w: w.collision_free_step(WORLD, -1), "this is the argument min_distance"),
     (lambda w: w.weld(0, -1), "this is the argument tolerance"),
-    (lambda w: pliant.edge_edge_impacts(np.zeros((1, 4, 3)), np.zeros((2, 4, 3))), "one row for each pair"),
+    (
+        lambda w: pliant.edge_edge_impacts(np.zeros((1, 4, 3)), np.zeros((2, 4, 3))),
+        "start and end have one row for each pair",
+    ),
     (lambda w: pliant.check(), 'name files, as in pliant.check("cloth_*.obj")'),
     (lambda w: pliant.check("absent.obj"), "the path is taken from the current folder, os.getcwd()"),
-    (lambda w: pliant.check("absent_*.obj"), "the pattern is taken from the current folder, os.getcwd()"),
+    (
+        lambda w: pliant.check("absent_*.obj"),
+        "the pattern is taken from the current folder, os.getcwd()",
+    ),
 ]
 
 
 @pytest.mark.parametrize(("call", "advice"), ADVICE, ids=range(len(ADVICE)))
-def test_a_refusal_says_what_to_do_in_words_of_python(call: Callable[[pliant.World], Any], advice: str) -> None:
+def test_a_refusal_says_what_to_do_in_words_of_python(
+    call: Callable[[pliant.World], Any], advice: str
+) -> None:
     with pytest.raises(pliant.Error) as refused:
         call(two_sheets())
     assert str(refused.value).endswith(advice)
@@ -149,14 +160,19 @@ def test_a_refusal_says_what_to_do_in_words_of_python(call: Callable[[pliant.Wor
 @pytest.mark.parametrize(
     ("step", "advice"),
     [
-        (lambda e: (e.remove_triangles([1]), e.remove_triangles([1])), "Edit.set_triangle does that"),
+        (
+            lambda e: (e.remove_triangles([1]), e.remove_triangles([1])),
+            "Edit.set_triangle does that",
+        ),
         (lambda e: (e.merge_vertices(0, 1), e.merge_vertices(0, 1)), "Edit.place_vertex does that"),
         (lambda e: e.place_vertex(0, [0.0, 0, 0]), "World.set_positions does that"),
-        (lambda e: e.split_vertex(15, [0]), "give split_vertex triangles that have it for a corner"),
+        (lambda e: e.split_vertex(15, [0]), "give triangles that have it for a corner"),
     ],
     ids=range(4),
 )
-def test_a_refused_step_says_which_call_helps(step: Callable[[pliant.Edit], Any], advice: str) -> None:
+def test_a_refused_step_says_which_call_helps(
+    step: Callable[[pliant.Edit], Any], advice: str
+) -> None:
     world = two_sheets()
     edit = world.edit(0)
     step(edit)
@@ -167,17 +183,19 @@ def test_a_refused_step_says_which_call_helps(step: Callable[[pliant.Edit], Any]
 @pytest.mark.parametrize(
     ("call", "kind", "message"),
     [
-        (lambda w: w.set_filter(0, -1, 1), OverflowError, "-1 is not an integer from 0 to 4294967295"),
+        (lambda w: w.set_filter(0, -1, 1), OverflowError, "-1 is not an integer from 0 to 4294"),
         (lambda w: w.tree_cut(0, 2**32), OverflowError, "4294967296 is not an integer"),
-        (lambda w: w.set_loose_box(0, 5), TypeError, r"5 is not a tuple \(lower, upper\), three numbers each, or None"),
+        (lambda w: w.set_loose_box(0, 5), TypeError, r"5 is not a tuple \(lower, upper\), three"),
         (lambda w: w.set_loose_box(0, ([1, 2], [3, 4])), ValueError, r"is not a tuple \(lower, upper\)"),
-        (lambda w: w.edit(0).set_triangle(0, [1, 2]), ValueError, r"\[1, 2\] is not three vertex numbers"),
-        (lambda w: w.edit(0).place_vertex(0, [1.0, 2.0]), pliant.Error, r"position has shape \(2,\); it must be \(3,\)"),
-        (lambda w: w.contacts(only="crossing"), TypeError, "'crossing' is not a pliant.ContactKind: give only="),
+        (lambda w: w.edit(0).set_triangle(0, [1, 2]), ValueError, r"\[1, 2\] is not three vertex"),
+        (lambda w: w.edit(0).place_vertex(0, [1.0]), pliant.Error, r"shape \(1,\); it must be \(3,"),
+        (lambda w: w.contacts(only="crossing"), TypeError, "'crossing' is not a pliant.ContactKind"),
     ],
     ids=range(7),
 )
-def test_arguments_of_a_wrong_form_are_told_the_right_one(call: Callable[[Any], Any], kind: type[Exception], message: str) -> None:
+def test_arguments_of_a_wrong_form_are_told_the_right_one(
+    call: Callable[[Any], Any], kind: type[Exception], message: str
+) -> None:
     with pytest.raises(kind, match=message):
         call(two_sheets())
 

@@ -64,7 +64,7 @@ Not read
                   the Python package reads it (pip install 'pliant[usd]'); or as below
   .fbx, .abc, .blend, .ma, .mb, .max, .dae, .3ds, .c4d, .hip, .step, .iges
                   export glTF (.glb) with its animation; or a mesh and its point cache (.obj and
-                  .pc2 or .mdd); or a file a frame";
+                  .pc2 or .mdd); or one file per frame";
 
 /// Prints the list of formats.
 pub(crate) fn print(_: &Arguments) -> anyhow::Result<Outcome> {

@@ -1,6 +1,7 @@
-//! Every pair of triangles, or of elements, one after the other: what the references of all kinds go through.
+//! Brute force: every pair of triangles or of elements, one after the other.
 //!
-//! Which pairs a kind looks for is said by its own `reference`, in its folder of `world/kinds`.
+//! The references of all kinds go through here. Each says in its own `reference.rs`, in its folder
+//! of `world/kinds`, which pairs it looks for.
 
 use crate::error::Error;
 use crate::geometry::{Bounds, Real};
@@ -8,13 +9,13 @@ use crate::mesh::share_a_vertex;
 use pliant_exact::Triangle;
 use std::collections::BTreeSet;
 
-/// The triangles of a body, and where its vertices are.
+/// Mesh: the triangles of a body, and the positions of its vertices.
 pub(crate) type Mesh<'m, S> = (&'m [[u32; 3]], &'m [[S; 3]]);
 
-/// The pairs of triangles of two bodies of which `find` finds something, and what.
+/// Pairs of triangles of two bodies for which `find` finds something, with what it found.
 ///
-/// If there is no other body, the pairs of one: the smaller triangle, then the larger one.
-/// There, triangles that share a vertex are no pair.
+/// Without another body they are pairs of one body: the smaller triangle, then the larger one.
+/// There, triangles that share a vertex are left out.
 pub(crate) fn triangles_that<S: Real, T>(
     (triangles_a, positions_a): Mesh<S>,
     other: Option<Mesh<S>>,
@@ -36,21 +37,22 @@ pub(crate) fn triangles_that<S: Real, T>(
     Ok(pairs)
 }
 
-/// The pairs alone.
+/// The pairs without what was found of each.
 pub(crate) fn without<T>(pairs: Vec<([u32; 2], T)>) -> Vec<[u32; 2]> {
     pairs.into_iter().map(|(pair, _)| pair).collect()
 }
 
-/// A body, and where it is going.
+/// A body and its motion, as references take it.
 #[derive(Clone, Copy, Debug)]
 pub struct Moving<'m, S> {
-    /// Its triangles.
+    /// Triangles, shape (m, 3).
     pub triangles: &'m [[u32; 3]],
-    /// Where its vertices are.
+    /// Positions of the vertices at the start of the motion, shape (n, 3).
     pub positions: &'m [[S; 3]],
-    /// Where they are at the end of a motion.
+    /// Positions at the end of the motion, shape (n, 3); `None` if the body stands still.
     pub end: Option<&'m [[S; 3]]>,
-    /// Vertices of one group do not meet, but for group 0; none: all meet.
+    /// Groups of the vertices, shape (n,); vertices of one group do not meet, except in group 0.
+    /// `None`: all meet.
     pub groups: Option<&'m [u32]>,
 }
 
@@ -66,7 +68,7 @@ impl<S> Moving<'_, S> {
         Ok(())
     }
 
-    /// The box of some vertices, at both ends of the motion.
+    /// Box of some vertices, over both ends of the motion.
     pub(crate) fn box_of(&self, vertices: &[u32]) -> Bounds<f64>
     where
         S: Real,
@@ -80,7 +82,7 @@ impl<S> Moving<'_, S> {
         bounds
     }
 
-    /// The box of some vertices where they are.
+    /// Box of some vertices in the present shape.
     pub(crate) fn box_now(&self, vertices: &[u32]) -> Bounds<f64>
     where
         S: Real,
@@ -89,7 +91,7 @@ impl<S> Moving<'_, S> {
         still.box_of(vertices)
     }
 
-    /// The vertices that triangles use, by their numbers.
+    /// Vertices that triangles use, by number.
     fn vertices(&self) -> Vec<(u32, Vec<u32>)> {
         let used: BTreeSet<u32> = self.triangles.as_flattened().iter().copied().collect();
         used.into_iter().map(|it| (it, vec![it])).collect()
@@ -100,7 +102,9 @@ impl<S> Moving<'_, S> {
     }
 }
 
-/// The edges of triangles, the smaller vertex first, each once, sorted: as [`World::edges`](crate::World::edges) numbers them.
+/// Edges of triangles, the smaller vertex first, each once, sorted.
+///
+/// [`World::edges`](crate::World::edges) numbers them in this order. Cost: O(m log m).
 pub fn edges(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     let of_triangle = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]];
     let both = triangles
@@ -111,7 +115,7 @@ pub fn edges(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     edges.into_iter().collect()
 }
 
-/// Which elements are looked at in pairs.
+/// Kind of elements whose pairs are looked at.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ElementPairs {
     VerticesAndTriangles,
@@ -119,24 +123,24 @@ pub(crate) enum ElementPairs {
 }
 
 impl ElementPairs {
-    /// The pairs of two bodies for which `test` holds; or of one, if there is no other.
+    /// Pairs of two bodies for which `test` holds; pairs of one body if there is no other.
     pub(crate) fn that<S: Real>(
         self,
         a: &Moving<S>,
         other: Option<&Moving<S>>,
-        test: impl Fn(Part<S>, Part<S>) -> bool,
+        test: impl Fn(Element<S>, Element<S>) -> bool,
     ) -> Result<Vec<[u32; 2]>, Error> {
         let found = self.all(a, other, |a, b| test(a, b).then_some(()))?;
         Ok(without(found))
     }
 
-    /// The pairs of which `find` finds something, and what. Of edges of one body, the smaller edge
-    /// is the first.
+    /// Pairs for which `find` finds something, with what it found. Of two edges of one body the
+    /// smaller is the first.
     pub(crate) fn all<S: Real, T>(
         self,
         a: &Moving<S>,
         other: Option<&Moving<S>>,
-        find: impl Fn(Part<S>, Part<S>) -> Option<T>,
+        find: impl Fn(Element<S>, Element<S>) -> Option<T>,
     ) -> Result<Vec<([u32; 2], T)>, Error> {
         let b = other.unwrap_or(a);
         a.validate()?;
@@ -160,16 +164,16 @@ impl ElementPairs {
     }
 }
 
-/// Elements by their vertices, with their numbers.
+/// Elements by their vertices, each with its number.
 fn numbered<const C: usize>(elements: &[[u32; C]]) -> Vec<(u32, Vec<u32>)> {
     (0..).zip(elements.iter().map(|it| it.to_vec())).collect()
 }
 
-/// Some vertices of a body.
-pub(crate) type Part<'p, 'm, S> = (&'p Moving<'m, S>, &'p [u32]);
+/// Element of a body, by its vertices.
+pub(crate) type Element<'p, 'm, S> = (&'p Moving<'m, S>, &'p [u32]);
 
-/// Whether two elements, by their vertices, may be near each other: they have no vertex in common, and their groups let them.
-fn may_meet<S: Real>((a, of_a): Part<S>, (b, of_b): Part<S>, itself: bool) -> bool {
+/// Whether two elements may be near each other: they share no vertex, and their groups let them.
+fn may_meet<S: Real>((a, of_a): Element<S>, (b, of_b): Element<S>, itself: bool) -> bool {
     let pairs = || of_a.iter().flat_map(|&i| of_b.iter().map(move |&j| (i, j)));
     let are_kept_apart = pairs().all(|(i, j)| a.group(i) != 0 && a.group(i) == b.group(j));
     let share = itself && pairs().any(|(i, j)| i == j);

@@ -1,18 +1,23 @@
-//! Edits of a mesh: what is to become other, and what has.
+//! Edits of a mesh: a list of steps as the caller asks for them, and what applying it has changed.
 
 use crate::ids::BodyId;
 use std::ops::Range;
 
-/// Changes of one body's mesh, to be made all at once or not at all.
+/// Edit of one body's mesh: a list of steps, applied all at once or not at all.
 ///
-/// [`World::edit`](crate::World::edit) gives one that has no steps yet; [`World::apply`](crate::World::apply) makes the changes. Each step
-/// goes on from the mesh that the steps before it leave. Numbers stay: a triangle or a vertex that goes leaves its number empty, and what
-/// comes is numbered behind all others, so that its numbers are known at once. An empty number is used again where a step names it.
+/// [`World::edit`](crate::World::edit) begins one without steps;
+/// [`World::apply`](crate::World::apply) makes the changes. Each step goes on from the mesh that
+/// the steps before it leave.
 ///
-/// A vertex that loses its last triangle by the edit goes at its end; one that never had any stays. One that is merged into another is
-/// empty at once, and may be placed again by a later step: then it is there after the edit.
+/// Numbers stay. A triangle or vertex that goes leaves its number empty. A new one is numbered
+/// behind all others, so its number is known at once. An empty number is used again where a step
+/// names it.
 ///
-/// An edit is of the world that began it: no other makes its changes, not even a clone.
+/// A vertex that loses its last triangle by the edit goes at the end of the edit; one that never
+/// had any stays. A vertex that is merged into another is empty at once. A later step may place it
+/// again; then it is there after the edit.
+///
+/// An edit belongs to the world that began it. No other world applies it, not even a clone.
 ///
 /// ```
 /// use pliant::World;
@@ -32,17 +37,17 @@ use std::ops::Range;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Edit<S> {
-    /// Which world, among all of the process.
+    /// Number of the world, unique in the process.
     pub(crate) world: u64,
     pub(crate) body: BodyId,
-    /// Which mesh the numbers are of.
+    /// Version of the mesh that the numbers belong to.
     pub(crate) mesh: u64,
     vertices: u32,
     triangles: u32,
     pub(crate) steps: Vec<Step<S>>,
 }
 
-/// One change, as it was asked for.
+/// Step of an edit, as it was asked for.
 #[derive(Clone, Debug)]
 pub(crate) enum Step<S> {
     AddVertices(Vec<[S; 3]>),
@@ -69,27 +74,27 @@ impl<S: Copy> Edit<S> {
         }
     }
 
-    /// The body whose mesh it is.
+    /// The body that this edit is for.
     pub fn body(&self) -> BodyId {
         self.body
     }
 
-    /// How many numbers of vertices there are after the steps so far.
+    /// Count of vertex numbers after the steps so far, empty ones included.
     pub fn vertex_count(&self) -> usize {
         self.vertices as usize
     }
 
-    /// How many numbers of triangles there are after the steps so far.
+    /// Count of triangle numbers after the steps so far, empty ones included.
     pub fn triangle_count(&self) -> usize {
         self.triangles as usize
     }
 
-    /// Adds a vertex; returns its number.
+    /// Adds a vertex at a position, in the unit of the body's positions. Returns its number.
     pub fn add_vertex(&mut self, position: [S; 3]) -> u32 {
         self.add_vertices(&[position]).start
     }
 
-    /// Adds vertices; returns their numbers.
+    /// Adds vertices at positions, shape (k, 3). Returns their numbers.
     pub fn add_vertices(&mut self, positions: &[[S; 3]]) -> Range<u32> {
         self.steps.push(Step::AddVertices(positions.to_vec()));
         let first = self.vertices;
@@ -97,13 +102,17 @@ impl<S: Copy> Edit<S> {
         first..self.vertices
     }
 
-    /// Uses an empty number of a vertex again.
+    /// Places a vertex under an empty number, which is so used again.
+    ///
+    /// [`World::apply`](crate::World::apply) refuses a number that is not empty.
     pub fn place_vertex(&mut self, vertex: u32, position: [S; 3]) {
         self.steps.push(Step::PlaceVertex(vertex, position));
     }
 
-    /// Adds a vertex in the place where another is, which these triangles have for a corner from now on instead of the other. Returns
-    /// its number. It has the group of the other.
+    /// Splits a vertex: adds a new one in the same place, and gives it to some triangles instead.
+    ///
+    /// These must have `vertex` for a corner; they have the new one from now on. Returns the number
+    /// of the new vertex, which is in the same group.
     pub fn split_vertex(&mut self, vertex: u32, triangles: &[u32]) -> u32 {
         let step = Step::SplitVertex(vertex, triangles.to_vec());
         self.steps.push(step);
@@ -112,17 +121,19 @@ impl<S: Copy> Edit<S> {
         new
     }
 
-    /// All triangles that have the vertex `gone` have `kept` instead from now on, which stays where it is; `gone` goes.
+    /// Merges two vertices: all triangles that have `gone` have `kept` from now on.
+    ///
+    /// `kept` stays where it is, and the number `gone` is empty.
     pub fn merge_vertices(&mut self, kept: u32, gone: u32) {
         self.steps.push(Step::MergeVertices(kept, gone));
     }
 
-    /// Adds a triangle; returns its number.
+    /// Adds a triangle with these corners. Returns its number.
     pub fn add_triangle(&mut self, corners: [u32; 3]) -> u32 {
         self.add_triangles(&[corners]).start
     }
 
-    /// Adds triangles, shape (k, 3); returns their numbers.
+    /// Adds triangles, shape (k, 3). Returns their numbers.
     pub fn add_triangles(&mut self, corners: &[[u32; 3]]) -> Range<u32> {
         self.steps.push(Step::AddTriangles(corners.to_vec()));
         let first = self.triangles;
@@ -135,28 +146,29 @@ impl<S: Copy> Edit<S> {
         self.steps.push(Step::SetTriangle(triangle, corners));
     }
 
-    /// Takes a triangle out.
+    /// Removes a triangle, which leaves its number empty.
     pub fn remove_triangle(&mut self, triangle: u32) {
         self.remove_triangles(&[triangle]);
     }
 
-    /// Takes triangles out.
+    /// Removes triangles, which leave their numbers empty.
     pub fn remove_triangles(&mut self, triangles: &[u32]) {
         self.steps.push(Step::RemoveTriangles(triangles.to_vec()));
     }
 }
 
-/// What an edit has changed, by number; every list ascending.
+/// Changes that an edit has made, by number; every list is ascending.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Edited {
-    /// Triangles that were empty, or not there.
+    /// Triangles that are new: their numbers were empty, or did not exist.
     pub new_triangles: Vec<u32>,
-    /// Triangles that have other corners.
+    /// Triangles that have other corners than before.
     pub changed_triangles: Vec<u32>,
-    /// Triangles that are empty now.
+    /// Triangles that were removed: their numbers are empty now.
     pub removed_triangles: Vec<u32>,
-    /// Vertices that were empty, or not there, or that went and came again.
+    /// Vertices that are new: their numbers were empty, or did not exist, or were emptied and
+    /// placed again.
     pub new_vertices: Vec<u32>,
-    /// Vertices that are empty now.
+    /// Vertices that were removed: their numbers are empty now.
     pub removed_vertices: Vec<u32>,
 }

@@ -1,22 +1,26 @@
-//! What was refused: which body, which triangle, which vertex, and why.
+//! Errors: refused calls, with the body, triangle or vertex, the reason, and what to do.
 
 use crate::ids::BodyId;
 use std::fmt;
 
-/// A call that was refused. The world is as it was before the call.
+/// Refused call; the world is as it was before.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Error {
-    /// The body the call was about; `None` for one that was to be added, and for a query that failed as a whole.
+    /// Body that the call was about; `None` for a body that was to be added, and for a query that
+    /// failed as a whole.
     pub body: Option<BodyId>,
-    /// What was wrong.
+    /// Reason for the refusal.
     pub kind: ErrorKind,
 }
 
-/// What was wrong with a call. Triangles and vertices are numbered as the caller numbers them.
+/// Reason for which a call was refused.
+///
+/// Triangles and vertices are numbered as the caller numbers them. Messages say what is wrong and
+/// what to do, in one line.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// A body needs at least one triangle.
+    /// A body would have no triangle; it needs at least one.
     NoTriangles,
     /// A body has more triangles, or more vertices, than 32-bit numbers can keep apart.
     TooLarge {
@@ -54,13 +58,15 @@ pub enum ErrorKind {
         /// Its position.
         position: [f64; 3],
     },
-    /// A coordinate is not zero and so small (below 2^-126 for `f32`, 2^-969 for `f64`) that the calling thread, in which
-    /// flush-to-zero or denormals-are-zero is set, would take it for zero.
+    /// A coordinate is not zero, but the calling thread would take it for zero.
+    ///
+    /// The thread has flush-to-zero or denormals-are-zero set, and the coordinate is below 2^-126
+    /// (`f32`) or 2^-969 (`f64`) in magnitude.
     NeedsSubnormals {
         /// The vertex.
         vertex: usize,
     },
-    /// [`write_positions`](crate::World::write_positions) left a vertex unwritten (or wrote a NaN).
+    /// [`write_positions`](crate::World::write_positions) left a vertex unwritten, or wrote NaN.
     NotWritten {
         /// The first such vertex.
         vertex: usize,
@@ -76,14 +82,17 @@ pub enum ErrorKind {
     BadLooseBox,
     /// No body of this world has this id: it was removed, or it belongs to another world.
     NoSuchBody,
-    /// A query between two bodies was given one body twice; ask [`Within`](crate::Selection::Within) it instead.
+    /// One body was given twice where two different ones are needed.
+    ///
+    /// [`Within`](crate::Selection::Within) asks about a body with itself.
     SameBody,
-    /// The list that a query was to make would have more hits than [`at_most`](crate::Query::at_most) allows.
+    /// A list would have more hits than [`at_most`](crate::Query::at_most) allows.
     TooManyHits {
         /// How many are allowed.
         limit: usize,
     },
-    /// [`interrupt_if`](crate::Query::interrupt_if) ended the query.
+    /// [`interrupt_if`](crate::Query::interrupt_if) or
+    /// [`interruptible`](crate::World::interruptible) ended the call.
     Interrupted,
     /// A margin is negative, infinite or NaN.
     BadMargin {
@@ -95,7 +104,7 @@ pub enum ErrorKind {
         /// The distance.
         distance: f64,
     },
-    /// Corners at the start and at the end of motions are of different numbers of pairs.
+    /// Corners are given for different numbers of pairs at the start and at the end of motions.
     DifferentCounts {
         /// Pairs at the start.
         start: usize,
@@ -108,10 +117,10 @@ pub enum ErrorKind {
         pair: usize,
         /// Its corner, from 0 to 3.
         corner: usize,
-        /// Where it is.
+        /// Its position.
         position: [f64; 3],
     },
-    /// A width of intervals of times is negative, infinite or NaN.
+    /// The width of time intervals is negative, infinite or NaN.
     BadWidth {
         /// The width.
         width: f64,
@@ -150,19 +159,20 @@ pub enum ErrorKind {
         /// The vertex.
         vertex: u32,
     },
-    /// A triangle that is to take a new vertex in place of another does not have that other for a corner.
+    /// An edit splits a vertex for a triangle that does not have it for a corner.
     NotACorner {
         /// The triangle.
         triangle: u32,
         /// The vertex that was to be split.
         vertex: u32,
     },
-    /// The mesh was changed since [`World::edit`](crate::World::edit) began this edit, or another world began it.
+    /// The mesh was changed since [`World::edit`](crate::World::edit) began this edit, or another
+    /// world began it.
     OutdatedEdit,
 }
 
 impl ErrorKind {
-    /// As the error of a query that failed as a whole.
+    /// Makes the error of a query that failed as a whole.
     pub(crate) fn of_query(self) -> Error {
         Error {
             body: None,
@@ -187,9 +197,15 @@ impl fmt::Display for ErrorKind {
         match self {
             Self::NoTriangles => write!(f, "no triangles; a body needs at least one"),
             Self::TooLarge { what, count, limit } => {
-                write!(f, "{count} {what}; a body may have {limit}")
+                write!(
+                    f,
+                    "{count} {what}; a body may have at most {limit}; split the mesh"
+                )
             }
-            Self::TooManyBodies => write!(f, "this world has given away all its 2^32 body ids"),
+            Self::TooManyBodies => write!(
+                f,
+                "this world has used up its 2^32 ids of bodies; go on with a new world"
+            ),
             Self::VertexOutOfRange {
                 triangle,
                 vertex,
@@ -197,51 +213,78 @@ impl fmt::Display for ErrorKind {
             } => {
                 write!(
                     f,
-                    "triangle {triangle} names vertex {vertex}, but there are {vertices} vertices (counted from 0)"
+                    "triangle {triangle} names vertex {vertex}, but there are {vertices} vertices \
+                     (counted from 0); give it corners that are there"
                 )
             }
             Self::WrongLength {
                 what,
                 expected,
                 found,
-            } => write!(f, "{found} {what} for {expected} vertices"),
+            } => write!(
+                f,
+                "{found} {what} for {expected} vertices; give one for each vertex, empty ones \
+                 included"
+            ),
             Self::BadPosition { vertex, position } => write!(
                 f,
-                "vertex {vertex} is at {position:?}; coordinates must be finite and at most {:e} in magnitude",
+                "vertex {vertex} is at {position:?}; coordinates must be finite and at most {:e} \
+                 in magnitude",
                 f32::MAX
             ),
             Self::NeedsSubnormals { vertex } => write!(
                 f,
-                "vertex {vertex} has a coordinate that this thread takes for zero, because it flushes subnormal numbers; switch \
-                 flush-to-zero and denormals-are-zero off, or make the coordinate zero"
+                "vertex {vertex} has a coordinate that this thread takes for zero, because it \
+                 flushes subnormal numbers; switch flush-to-zero and denormals-are-zero off, or \
+                 make the coordinate zero"
             ),
             Self::NotWritten { vertex } => {
-                write!(f, "vertex {vertex} was not written, or written as NaN")
+                write!(
+                    f,
+                    "vertex {vertex} was not written, or written as NaN; fill every row of the \
+                     buffer"
+                )
             }
             Self::OutsideLooseBox { vertex, position } => {
                 write!(
                     f,
-                    "vertex {vertex} is at {position:?}, outside the body's loose box; enlarge or remove the box"
+                    "vertex {vertex} is at {position:?}, outside the body's loose box; enlarge or \
+                     remove the box"
                 )
             }
             Self::BadLooseBox => write!(
                 f,
-                "a loose box needs finite corners of at most {:e} in magnitude, the lower one not above the upper one",
+                "the corners of the loose box are out of range or exchanged; give finite ones of \
+                 at most {:e} in magnitude, the lower one not above the upper one on any axis",
                 f32::MAX
             ),
             Self::NoSuchBody => write!(
                 f,
-                "not in this world; it was removed, or belongs to another world"
+                "not in this world; it was removed, or belongs to another world; bodies() lists \
+                 all that are there"
             ),
             Self::SameBody => write!(
                 f,
-                "asked against itself, as if it were two bodies; ask within it instead"
+                "given twice, where two different bodies are needed; give another, or ask about \
+                 the body with itself"
             ),
+            _ => self.about_a_question(f),
+        }
+    }
+}
+
+impl ErrorKind {
+    /// Message of a refused question, of a motion or of single pairs.
+    fn about_a_question(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
             Self::TooManyHits { limit } => write!(
                 f,
                 "more hits than the {limit} that were allowed; allow more, or visit them one by one"
             ),
-            Self::Interrupted => write!(f, "the query was interrupted"),
+            Self::Interrupted => write!(
+                f,
+                "interrupted, as the caller wished; the world stays usable, ask again"
+            ),
             Self::BadMargin { radius } => write!(
                 f,
                 "the margin is {radius}; give a finite number that is at least 0"
@@ -252,7 +295,8 @@ impl fmt::Display for ErrorKind {
             ),
             Self::DifferentCounts { start, end } => write!(
                 f,
-                "{start} pairs at the start and {end} at the end; give as many"
+                "{start} pairs at the start and {end} at the end of the motion; give the same \
+                 pairs at both"
             ),
             Self::BadCorner {
                 pair,
@@ -260,23 +304,25 @@ impl fmt::Display for ErrorKind {
                 position,
             } => write!(
                 f,
-                "corner {corner} of pair {pair} is at {position:?}; coordinates must be finite and at most {:e} in magnitude",
+                "corner {corner} of pair {pair} is at {position:?}; coordinates must be finite and \
+                 at most {:e} in magnitude",
                 f32::MAX
             ),
             Self::BadWidth { width } => write!(
                 f,
-                "the width is {width}; give a finite number that is at least 0"
+                "the width of time intervals is {width}; give a finite number that is at least 0"
             ),
             Self::BadTime { time } => {
-                write!(f, "the time is {time}; within a step it is from 0 to 1")
+                write!(
+                    f,
+                    "the time is {time}; give the part of the step, from 0 to 1"
+                )
             }
             _ => self.about_an_edit(f),
         }
     }
-}
 
-impl ErrorKind {
-    /// Why an edit was refused.
+    /// Message of a refused edit.
     fn about_an_edit(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoSuchTriangle {
@@ -284,19 +330,23 @@ impl ErrorKind {
                 triangles,
             } => write!(
                 f,
-                "the edit names triangle {triangle}, but there are {triangles} triangles (counted from 0)"
+                "the edit names triangle {triangle}, but there are {triangles} triangles (counted \
+                 from 0); name one that is there"
             ),
             Self::EmptyTriangle { triangle } => write!(
                 f,
-                "the edit names triangle {triangle}, which was taken out; give it corners to use its number again"
+                "the edit names triangle {triangle}, which was taken out; give it corners to use \
+                 its number again"
             ),
             Self::NoSuchVertex { vertex, vertices } => write!(
                 f,
-                "the edit names vertex {vertex}, but there are {vertices} vertices (counted from 0)"
+                "the edit names vertex {vertex}, but there are {vertices} vertices (counted from \
+                 0); name one that is there"
             ),
             Self::EmptyVertex { vertex } => write!(
                 f,
-                "the edit names vertex {vertex}, which is empty, for its last triangle was taken out; place it to use its number again"
+                "the edit names vertex {vertex}, which is empty, for no triangle has it any more; \
+                 place it to use its number again"
             ),
             Self::VertexInUse { vertex } => write!(
                 f,
@@ -304,11 +354,13 @@ impl ErrorKind {
             ),
             Self::NotACorner { triangle, vertex } => write!(
                 f,
-                "vertex {vertex} is to be split, but is no corner of triangle {triangle}"
+                "vertex {vertex} is to be split, but is no corner of triangle {triangle}; give \
+                 triangles that have it for a corner"
             ),
             Self::OutdatedEdit => write!(
                 f,
-                "the mesh was changed since this edit was begun, or it was begun in another world; begin another"
+                "the mesh was changed since this edit was begun, or it was begun in another world; \
+                 begin another"
             ),
             _ => Ok(()),
         }

@@ -1,49 +1,49 @@
-//! How much memory things hold: bytes of the heap, counted from what lists have room for, used or not.
+//! Memory accounting: bytes of the heap that things hold, counted as capacity, used or not.
 //!
-//! Maps and sets do not say what they have room for: they are reckoned by their entries.
+//! Maps and sets do not say their capacity: it is estimated from their entries.
 
-/// What holds memory.
+/// A thing that holds memory of the heap.
 pub(crate) trait Held {
-    /// Bytes of the heap, without those of the thing itself.
+    /// Bytes of the heap, without the bytes of the thing itself.
     fn held(&self) -> usize;
 }
 
-/// Of a list of things that hold none.
+/// Bytes of a list whose items hold none.
 pub(crate) fn list<T>(list: &Vec<T>) -> usize {
     list.capacity() * size_of::<T>()
 }
 
-/// Of a list of things that hold some.
+/// Bytes of a list and of what its items hold.
 pub(crate) fn lists<T: Held>(things: &Vec<T>) -> usize {
     list(things) + within(things)
 }
 
-/// Of things, without those of the things themselves.
+/// Bytes that things hold, without the things themselves.
 pub(crate) fn within<'t, T: Held + 't>(things: impl IntoIterator<Item = &'t T>) -> usize {
     things.into_iter().map(Held::held).sum()
 }
 
-/// Of things in boxes, and the things themselves.
+/// Bytes of boxed things, and of what they hold.
 pub(crate) fn boxes<'t, T: Held + 't>(things: impl IntoIterator<Item = &'t Box<T>>) -> usize {
     let all = things.into_iter();
     all.map(|thing| size_of::<T>() + thing.held()).sum()
 }
 
-/// Of so many entries in a tree of them, whose nodes are two thirds full, about.
+/// Estimated bytes of a B-tree with `count` entries, whose nodes are about two thirds full.
 pub(crate) fn entries<T>(count: usize) -> usize {
     count * size_of::<T>() * 3 / 2
 }
 
-/// Bytes of a list of plain things; the compiler sees that they hold none.
+/// Bytes of a list of plain things, checked at compile time to hold none.
 pub(crate) fn plain<T>(things: &Vec<T>) -> usize {
     const { assert!(!std::mem::needs_drop::<T>(), "these hold memory") };
     list(things)
 }
 
-/// Implements `Held` for a type: the sum over those of its fields that hold memory.
+/// Implements `Held` for a type, as the sum over its fields that hold memory.
 ///
-/// A field with `[]` behind it is a list of plain things; any other is `Held` itself.
-/// What no field says is a closure at the end.
+/// A field with `[]` behind it is a list of plain things; any other implements `Held` itself.
+/// Whatever no field says is a closure at the end.
 macro_rules! held {
     (@$this:ident $field:tt []) => {
         $crate::held::plain(&$this.$field)
@@ -66,8 +66,9 @@ macro_rules! held {
 }
 pub(crate) use held;
 
-/// Implements `Default` for a type by that of every field, whatever its parameters are: a derive
-/// would ask it of these, too.
+/// Implements `Default` for a type, field by field, whatever its parameters are.
+///
+/// A derive would demand `Default` of the parameters, too.
 macro_rules! empty {
     ($name:ident<$parameter:ident $(: $bound:ident)?>: $($field:ident),+) => {
         impl<$parameter $(: $bound)?> Default for $name<$parameter> {
@@ -87,7 +88,8 @@ impl Held for () {
     }
 }
 
-// `Box` has no implementation: `held` called on a box is that of what is in it, without its bytes.
+// `Box` has no implementation: `held` called on a box counts what its content holds, without the
+// bytes of the content itself.
 
 impl<T: Held> Held for Option<T> {
     fn held(&self) -> usize {

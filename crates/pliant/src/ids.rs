@@ -1,7 +1,8 @@
-//! Numbers of things, each kind with a type of its own, so that mixing two of them does not compile.
+//! Index types: each kind of number is a type of its own, so that mixing two does not compile.
 //!
-//! Triangles and vertices have two numbers: that of the caller, and that in the order of the tree (`mesh::Order` knows both). The
-//! caller's come in and go out as plain `u32`; between, everything is in tree order.
+//! Triangles and vertices have two numbers: the caller's, and one in the order of the tree.
+//! `mesh::Order` translates. The caller's numbers come in and go out as plain `u32`; between,
+//! everything is in tree order.
 
 use std::fmt;
 
@@ -12,7 +13,7 @@ macro_rules! numbers {
         pub(crate) struct $name(pub(crate) u32);
 
         impl $name {
-            /// As the index of an array.
+            /// The number as an array index.
             #[inline(always)]
             pub(crate) fn index(self) -> usize {
                 self.0 as usize
@@ -22,28 +23,28 @@ macro_rules! numbers {
 }
 
 numbers! {
-    /// A triangle, as the caller numbers them.
+    /// Triangle, as the caller numbers it.
     CallerTriangle;
-    /// A triangle, in the order of the tree.
+    /// Triangle, in tree order.
     TreeTriangle;
-    /// A vertex, as the caller numbers them.
+    /// Vertex, as the caller numbers it.
     CallerVertex;
-    /// A vertex, in the order of the tree.
+    /// Vertex, in tree order.
     TreeVertex;
-    /// Where a body stands in the list of its world.
+    /// Place of a body in its world's list. The last body takes the place of a removed one.
     Place;
-    /// Where a body stands among those of its world in the order of their ids.
+    /// Rank of a body: its index among the bodies of its world, in the order of their ids.
     Rank;
-    /// A wide node of a tree: up to N nodes side by side, the children of one node.
+    /// Wide node of a tree: the children of one node, up to N of them, side by side.
     WideNodeId;
-    /// A leaf of a tree.
+    /// Leaf of a tree.
     LeafId;
-    /// Up to eight triangles of a leaf, side by side.
+    /// Block: up to eight triangles of a leaf, side by side.
     BlockId;
 }
 
 impl TreeTriangle {
-    /// The triangle that comes so many later.
+    /// The triangle `count` places later in tree order.
     #[inline(always)]
     pub(crate) fn plus(self, count: u32) -> Self {
         Self(self.0 + count)
@@ -51,16 +52,16 @@ impl TreeTriangle {
 }
 
 impl LeafId {
-    /// The leaf that comes so many later.
+    /// The leaf `count` places later.
     #[inline(always)]
     pub(crate) fn plus(self, count: u32) -> Self {
         Self(self.0 + count)
     }
 }
 
-/// A body of a world: a number in order of adding, never used again in that world.
+/// Id of a body: a number in order of adding, never used again in its world.
 ///
-/// An id means nothing in another world; there it is refused, or is another body.
+/// An id means nothing in another world: there it is refused, or names another body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct BodyId(pub u32);
 
@@ -70,14 +71,15 @@ impl fmt::Display for BodyId {
     }
 }
 
-/// A node of a tree: one lane of a wide node. The node has one box, over all triangles below it.
+/// Node of a tree: one lane of a wide node, with one box over all triangles below it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct NodeId(u32);
 
 impl NodeId {
     pub(crate) const ROOT: Self = Self(0);
 
-    /// Eight lanes to a wide node, whatever the degree of the tree is.
+    /// Packs a wide node and a lane. Every wide node takes eight numbers, whatever the degree of
+    /// the tree is.
     #[inline(always)]
     pub(crate) fn new(wide_node: WideNodeId, lane: usize) -> Self {
         Self(wide_node.0 * 8 + lane as u32)

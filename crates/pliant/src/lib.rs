@@ -2,78 +2,108 @@
 //!
 //! # What an answer means
 //!
-//! - **Two triangles intersect** as closed sets: touching in one point counts, coplanar overlap counts, a degenerate triangle is
-//!   the segment or point that it is. The decision is that of exact arithmetic on the coordinates given, whatever the scale,
-//!   the order, the tree, the update or the processor.
-//! - **Within a body**, pairs that share a vertex of the mesh are left out. The library welds nothing: vertices with different
-//!   numbers are different, wherever they are.
-//! - **Surfaces only**: a body wholly inside another meets no triangle of it.
-//! - **All pairs** are one set, sorted. **The first pair** is some member of it: whether there is one never depends on options
-//!   or history, which one it is may. An answer is an error if a body is not there, if the caller interrupts the query, or if a list
-//!   would be longer than the caller allows.
-//! - **Range**: coordinates are finite and at most `f32::MAX` in magnitude, or they are refused. All others are decided exactly,
-//!   `f32` and `f64`, down to the smallest subnormal.
-//! - **Floating-point environment**: exactness rests on IEEE 754 rounding to nearest. In a thread in which flush-to-zero or
-//!   denormals-are-zero was switched on, answers are the same for coordinates that are zero or at least 2^-126 (`f32`) or
-//!   2^-969 (`f64`) in magnitude; smaller ones are refused there.
+//! - **Two triangles intersect** as closed sets: touching in one point counts, and so does coplanar
+//!   overlap. A degenerate triangle is the segment or point that it is.
+//! - **Decisions are exact** for all coordinates that are accepted. Scale, order, tree, update and
+//!   processor change nothing.
+//! - **Within a body**, pairs of triangles that share a vertex of the mesh are left out. Vertices
+//!   with different numbers are different, wherever they are: the library welds nothing unasked.
+//! - **Surfaces, not volumes**: a body wholly inside another meets no triangle of it.
+//! - **All hits** are one set, sorted. **The first hit** is some member of it. Whether there is one
+//!   never depends on options or history; which one it is may.
+//! - **An answer is an error** if a body is not there, the caller interrupts the query, or a list
+//!   would be longer than allowed.
+//! - **Coordinates** that are not finite or above `f32::MAX` in magnitude are refused
+//!   ([`ErrorKind::BadPosition`]). A thread that flushes subnormal numbers refuses tiny ones, too
+//!   ([`ErrorKind::NeedsSubnormals`]).
+//!
+//! `docs/RELIABILITY.md` in the repository has the one list of limits ("Where it ends").
 //!
 //! # Never stale
 //!
-//! [`World::set_positions`] takes a shape over in one checked pass, or refuses it, naming body and vertex, and keeps the last
-//! good one. Every query then refits just the boxes that it reads: there is no refit to call and none to forget.
-//! Replaying the same motion on one thread allocates nothing.
+//! [`World::set_positions`] takes over a shape in one checked pass, or refuses it, naming body and
+//! vertex, and keeps the last good one. Every query then refits just the boxes that it reads: there
+//! is no refit to call and none to forget. Replaying the same motion on one thread allocates
+//! nothing.
+//!
+#![doc = include_str!("../pictures/tree.svg")]
+//!
+//! # Candidates, close pairs, impacts
+//!
+//! Solvers ask about *elements*: a vertex and a triangle, or two edges. Three kinds of questions
+//! differ in how near these must be.
+//!
+//! - **Candidates**: their boxes are within a margin of each other, now or anywhere on the way to
+//!   the end of a motion.
+//! - **Close pairs**: they are at most a distance apart in the present shape, decided exactly. Each
+//!   comes with its closest points.
+//! - **Impacts**: they meet on the way to the end of a motion, decided exactly. Each comes with an
+//!   interval that holds the time of first contact.
+//!
+#![doc = include_str!("../pictures/margins.svg")]
 //!
 //! # Map
 //!
-//! | for | look at |
-//! |---|---|
-//! | a first loop, step by step, and what to do with hits | [`guide`] |
-//! | bodies | [`World::add`], [`remove`](World::remove), [`bodies`](World::bodies), [`BodyId`] |
-//! | moving them | [`World::set_positions`], [`write_positions`](World::write_positions); [`rebuild`](World::rebuild); other meshes, [`set_mesh`](World::set_mesh) |
-//! | meshes that change | [`World::edit`], [`Edit`], [`apply`](World::apply), [`Edited`]; [`components`](World::components), [`split`](World::split), [`fuse`](World::fuse), [`weld`](World::weld); [`tree_quality`](World::tree_quality), [`Options::mending`] |
-//! | asking: what | [`World::intersections`]; [`Pair`]; how they intersect, [`contacts`](World::contacts), [`ContactKind`] |
-//! | what is near, now or on the way | [`World::vertex_triangle_candidates`], [`edge_edge_candidates`](World::edge_edge_candidates); [`VertexTriangle`], [`EdgeEdge`]; [`World::edges`] |
-//! | what is close, how far apart | [`World::close_vertex_triangle_pairs`], [`close_edge_edge_pairs`](World::close_edge_edge_pairs), [`close_triangle_pairs`](World::close_triangle_pairs); [`distance`](World::distance), [`nearest_body`](World::nearest_body); [`clearance`](World::clearance) |
-//! | where bodies are going | [`World::set_motion`], [`finish_motion`](World::finish_motion), [`advance_motion`](World::advance_motion) |
-//! | what meets on the way, and how far all may go | [`World::vertex_triangle_impacts`], [`edge_edge_impacts`](World::edge_edge_impacts), [`first_impact`](World::first_impact), [`free_step`](World::free_step), [`collision_free_step`](World::collision_free_step); of single pairs, [`vertex_triangle_impacts`], [`edge_edge_impacts`] |
-//! | of whom | [`Selection`]: the whole world, each body with itself too, two bodies, one with itself |
-//! | and how much | [`Query::all`], [`first`](Query::first), [`visit`](Query::visit), [`visit_some`](Query::visit_some); [`at_most`](Query::at_most), [`interrupt_if`](Query::interrupt_if); [`World::interruptible`] |
-//! | who may meet whom | [`World::set_filter`], [`ignore`](World::ignore), [`unignore`](World::unignore); of candidates, [`set_vertex_groups`](World::set_vertex_groups) |
-//! | the broad phase | [`BroadPhase`], [`World::set_loose_box`] |
-//! | what was refused, and why | [`Error`], [`ErrorKind`] |
-//! | time and work | [`Query::prepare`], [`World::statistics`], [`Statistics`] |
-//! | how trees are built and updated | [`Options`], [`Degree`], [`Partition`], [`Update`]; [`World::tree_shape`], [`tree_cut`](World::tree_cut), [`vertex_order`](World::vertex_order) |
-//! | threads | [`Options::threads`], or your own pool: [`World::with_pool`] |
-//! | single or double precision | [`Scalar`] |
-//! | exact decisions on single points and triangles | [`exact`] |
-//! | the answer without any tree, to compare with | [`reference`](mod@reference) |
-//! | what a body looks like, for pictures | [`World::triangles`], [`positions`](World::positions), [`tree_boxes`](World::tree_boxes), [`NodeBox`] |
-//! | a whole simulation | `crates/pliant/examples/cloth_on_ball` in the repository: a cloth that falls on a moving ball and reacts to what is found |
+//! - **First loop, step by step, and what to do with hits**: [`guide`].
+//! - **Bodies**: [`World::add`], [`remove`](World::remove), [`bodies`](World::bodies), [`BodyId`].
+//! - **Moving them**: [`World::set_positions`], [`write_positions`](World::write_positions).
+//! - **Triangles that intersect**: [`World::intersections`], [`Pair`]. How they do:
+//!   [`contacts`](World::contacts), [`ContactKind`].
+//! - **Whom to ask about**: [`Selection`], which is the whole world, each body with itself too, two
+//!   bodies, or one with itself.
+//! - **How much to ask for**: [`Query::all`], [`first`](Query::first), [`visit`](Query::visit),
+//!   [`visit_some`](Query::visit_some). Limits: [`at_most`](Query::at_most),
+//!   [`interrupt_if`](Query::interrupt_if), [`World::interruptible`].
+//! - **Candidates**: [`World::vertex_triangle_candidates`],
+//!   [`edge_edge_candidates`](World::edge_edge_candidates), [`VertexTriangle`], [`EdgeEdge`],
+//!   [`World::edges`].
+//! - **Close pairs**: [`World::close_vertex_triangle_pairs`],
+//!   [`close_edge_edge_pairs`](World::close_edge_edge_pairs),
+//!   [`close_triangle_pairs`](World::close_triangle_pairs).
+//! - **Distances**: [`World::distance`], [`nearest_body`](World::nearest_body),
+//!   [`clearance`](World::clearance).
+//! - **Motions**: [`World::set_motion`], [`finish_motion`](World::finish_motion),
+//!   [`advance_motion`](World::advance_motion).
+//! - **Impacts**: [`World::vertex_triangle_impacts`],
+//!   [`edge_edge_impacts`](World::edge_edge_impacts), [`first_impact`](World::first_impact). For
+//!   single pairs: [`vertex_triangle_impacts`], [`edge_edge_impacts`].
+//! - **How far all may go**: [`World::free_step`],
+//!   [`collision_free_step`](World::collision_free_step).
+//! - **Meshes that change**: [`World::edit`], [`Edit`], [`apply`](World::apply), [`Edited`],
+//!   [`set_mesh`](World::set_mesh). Pieces: [`components`](World::components),
+//!   [`split`](World::split), [`fuse`](World::fuse), [`weld`](World::weld).
+//! - **Trees that no longer fit the shape**: [`World::rebuild`],
+//!   [`tree_quality`](World::tree_quality), [`Options::mending`].
+//! - **Who may meet whom**: [`World::set_filter`], [`ignore`](World::ignore),
+//!   [`unignore`](World::unignore). For candidates also
+//!   [`set_vertex_groups`](World::set_vertex_groups).
+//! - **Broad phase**: [`BroadPhase`], [`World::set_loose_box`].
+//! - **Refusals**: [`Error`], [`ErrorKind`].
+//! - **Time and work**: [`Query::prepare`], [`World::statistics`], [`Statistics`],
+//!   [`World::memory_usage`].
+//! - **How trees are built and updated**: [`Options`], [`Degree`], [`Partition`], [`Update`]. How
+//!   they look: [`World::tree_shape`], [`tree_cut`](World::tree_cut),
+//!   [`vertex_order`](World::vertex_order).
+//! - **Threads**: [`Options::threads`], or a pool of your own with [`World::with_pool`].
+//! - **Single or double precision**: [`Scalar`].
+//! - **Exact decisions on single points and triangles**: [`exact`].
+//! - **Answers without any tree, to compare with**: [`reference`](mod@reference).
+//! - **Bodies as pictures**: [`World::triangles`], [`positions`](World::positions),
+//!   [`tree_boxes`](World::tree_boxes), [`NodeBox`].
+//! - **A whole simulation**: `crates/pliant/examples/cloth_on_ball` in the repository. A cloth
+//!   falls on a moving ball, and reacts to what is found.
 //!
-//! Words of the paper (Larsson and Akenine-Möller, *Collision Detection for Continuously Deforming Bodies*, 2001), and where they
-//! are chosen: initial shape tree and mesh connectivity tree, [`Partition`]; bottom-up, top-down and hybrid update, [`Update`];
-//! k-ary trees, [`Degree`]; brute force and sweep and prune, [`BroadPhase`]; first pair and all pairs, the queries of [`World`]; all
-//! at once, [`Options::paper`].
+//! Words of the paper (Larsson and Akenine-Möller, *Collision Detection for Continuously Deforming
+//! Bodies*, 2001), and where they are chosen:
 //!
-//! Inside, modules are the algorithm, in the order in which data flows; `ARCHITECTURE.md` in the repository says where each section
-//! of the paper is.
+//! - initial shape tree, mesh connectivity tree: [`Partition`];
+//! - bottom-up, top-down and hybrid update: [`Update`];
+//! - k-ary trees: [`Degree`];
+//! - brute force, sweep and prune: [`BroadPhase`];
+//! - first pair and all pairs: [`Query`];
+//! - all of its choices at once: [`Options::paper`].
 //!
-//! ```text
-//! world         what users call: bodies, their shapes and motions, questions
-//! collide       a query on its way: which bodies meet, pair by pair; where the phases meet
-//! bodies        a body: its mesh, trees and shape; edits, and how trees are mended
-//! mesh          what the caller said, how a tree orders it, its edges; what an edit makes of it
-//! geometry      f32 or f64 coordinates, boxes in f32, rounded outward
-//! tree          nodes of degree 2, 4, 8, and sets of their boxes; building: by shape, by mesh, balanced
-//! update        which boxes are made when: bottom-up, top-down, hybrid
-//! broad_phase   brute force; sweep and prune; a tree of bodies
-//! traversal     tree against tree, tree against itself, for any kind of query
-//! queries       one room a kind: intersections and contacts, candidates, close pairs, impacts
-//! sort          hits in order
-//! kernels       the inner loops, over boxes and points side by side
-//! threads       one or many, private or lent
-//! all_pairs     slow and obviously right: what `reference` goes through
-//! ```
+//! `ARCHITECTURE.md` in the repository says which folder of the source implements which section.
 
 mod all_pairs;
 mod bodies;
@@ -114,21 +144,22 @@ pub use world::{
     vertex_triangle_impacts,
 };
 
-/// Slow and obviously right: every pair of triangles, or of elements, no tree, no box of several,
-/// no filter, exact signs.
+/// Brute-force references of every kind of question: slow, and obviously right.
 ///
-/// Every configuration of [`World`] must give these pairs. O(m^2) or O(m_a m_b) exact decisions.
+/// They take every pair of triangles or of elements, without tree or filter, and decide by exact
+/// signs. Every configuration of [`World`] must give these pairs. Cost: O(m^2) exact decisions for
+/// one body, O(m_a m_b) for two.
 pub mod reference {
     pub use crate::all_pairs::{Moving, edges};
     pub use crate::world::reference::*;
 }
 
-/// Exact decisions on single points and triangles, for who asks about shapes beside a world.
+/// Exact predicates on single points and triangles, without a world.
 pub mod exact {
     pub use pliant_exact::{is_degenerate, side_of_plane};
 }
 
-// A module of the documentation alone; its code is compiled and run like that of the README, with which this page begins.
+// A module of the documentation alone. Its code is compiled and run, as the README's is.
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../guide.md")]
 pub mod guide {}

@@ -1,8 +1,10 @@
-//! Who is asked about.
+//! Selections: which bodies a question is about.
 
 use crate::ids::BodyId;
 
-/// Who meets whom in a query. Every kind of query takes every selection.
+/// Selection: which bodies a query looks at, and against which others.
+///
+/// Every kind of query takes every selection.
 ///
 /// ```
 /// use pliant::{Selection, World};
@@ -19,13 +21,19 @@ use crate::ids::BodyId;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Selection {
-    /// Every two bodies that may meet, as [`World::set_filter`](crate::World::set_filter) and
-    /// [`ignore`](crate::World::ignore) say; no body with itself.
+    /// Every two different bodies that may meet, as filters say.
+    ///
+    /// See [`World::set_filter`](crate::World::set_filter) and [`ignore`](crate::World::ignore).
     World,
-    /// Every two bodies that may meet, and each body with itself: what a step of a simulator asks. A body meets itself
-    /// unless its own membership and mask have no bit in common, or it is ignored with itself.
+    /// Every two bodies that may meet, and each body with itself: what a step of a simulator asks.
+    ///
+    /// A body meets itself unless its own membership and mask have no bit in common, or it is
+    /// ignored with itself.
     Everything,
-    /// Two different bodies, whatever filters say. The first is the first of every hit; but a vertex comes before a triangle.
+    /// Two different bodies, whatever filters say.
+    ///
+    /// The first is the first of every hit. In pairs of a vertex and a triangle the vertex comes
+    /// first.
     Between(BodyId, BodyId),
     /// One body with itself, whatever filters say.
     Within(BodyId),

@@ -1,28 +1,36 @@
-//! Counters: what a query did. They explain its cost on any machine; time is never read inside the library. The same for any number of
-//! threads, but for decisions and pairs on the way to a first impact or a free step: there every thread goes by the earliest so far.
+//! Counters of the work of a query, which explain its cost on any machine. Time is never read
+//! inside the library.
+//!
+//! Counters are equal for any number of threads, with one exception: decisions and pairs on the way
+//! to a first impact or a free step. There every thread goes by the earliest contact found so far.
 
-/// The work of one query, together with what [`prepare`](crate::Query::prepare) has done since the query before it.
+/// Work of one query, with what [`prepare`](crate::Query::prepare) did since the query before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Statistics {
-    /// Pairs of bodies whose trees were traversed; 1 for a query of two bodies or of one with itself.
+    /// Pairs of bodies whose trees were traversed; 1 for a query of two bodies or of one with
+    /// itself.
     pub body_pairs: u64,
-    /// Boxes made ahead of a traversal, level by level from below.
+    /// Boxes refitted ahead of a traversal, level by level from below.
     pub boxes_bottom_up: u64,
-    /// Boxes made when a traversal reached them.
+    /// Boxes refitted when a traversal reached them.
     pub boxes_top_down: u64,
-    /// Boxes of single triangles in leaves of several, made when a leaf met another, or ahead in a body that meets itself.
+    /// Boxes of single triangles in leaves of several. They are made when a leaf meets another, or
+    /// ahead in a body that meets itself.
     pub triangle_boxes: u64,
-    /// Pairs of nodes with overlapping boxes; of a distance, those whose boxes were near enough to be opened.
+    /// Pairs of nodes with overlapping boxes. For a distance: pairs whose boxes were near enough to
+    /// be opened.
     pub node_pairs: u64,
-    /// Pairs of triangles with overlapping boxes, which were therefore decided, or near enough to be measured. Within a body, without those
-    /// that share a vertex.
+    /// Pairs of triangles with overlapping boxes, which were therefore decided, or near enough to
+    /// be measured. Within a body, pairs that share a vertex are not counted.
     pub candidate_pairs: u64,
-    /// Of moving elements, those that separating directions in single precision did not keep apart, so that they were decided one by one.
+    /// Pairs of moving elements that were decided one by one, because separating directions in
+    /// single precision did not keep them apart.
     pub scalar_decisions: u64,
-    /// Candidates of which floating point left a sign open, so that exact arithmetic was needed. Of moving elements, whether they meet.
+    /// Candidates of which floating point left a sign open, so that exact arithmetic was needed. Of
+    /// moving elements: pairs for which exact arithmetic decided whether they meet.
     pub exact_decisions: u64,
-    /// Pairs found.
+    /// Hits found.
     pub pairs: u64,
 }
 

@@ -114,9 +114,9 @@ class World:
     def __setstate__(self, written: dict[str, Any], /) -> None: ...
     @property
     def dtype(self) -> np.dtype[np.float32] | np.dtype[np.float64] | None:
-        """The dtype of all positions, numpy.float32 or numpy.float64; None while there was no body."""
+        """Dtype of all positions, numpy.float32 or numpy.float64; None before the first body."""
     def options(self) -> _Options:
-        """The options of this world, a dict of the keyword arguments that make another like it."""
+        """Options of this world, a dict of the keyword arguments that make another like it."""
     @overload
     def add(self, faces: _Array, positions: _Array) -> int:
         """Adds a body, and returns its number, an int that this world will not use again."""
@@ -132,11 +132,11 @@ class World:
     def edit(self, body: SupportsIndex) -> Edit:
         """Begins an edit of a body's mesh: an Edit without steps, which apply makes all at once."""
     def apply(self, edit: Edit) -> Edited:
-        """Makes the changes of an edit, all or none, and returns an Edited: what changed, by number."""
+        """Makes the changes of an edit, all or none; returns an Edited, the changes by number."""
     def live_triangles(self, body: SupportsIndex) -> NDArray[np.bool_]:
-        """Which triangle numbers of a body are in use, (m,) bool: False where an edit left one empty."""
+        """Whether each triangle number of a body is in use, (m,) bool; False if left empty."""
     def live_vertices(self, body: SupportsIndex) -> NDArray[np.bool_]:
-        """Which vertex numbers of a body are in use, (n,) bool: False where an edit left one empty."""
+        """Whether each vertex number of a body is in use, (n,) bool; False if left empty."""
     def mesh_revision(self, body: SupportsIndex) -> int:
         """Counter of a body's meshes and tree orders, an int that changes when either does."""
     def components(self, body: SupportsIndex) -> NDArray[np.uint32]:
@@ -146,23 +146,23 @@ class World:
     def fuse(self, a: SupportsIndex, b: SupportsIndex) -> Fused:
         """Appends the triangles and vertices of body b to body a, and removes b."""
     def weld(self, body: SupportsIndex, tolerance: float) -> Edited:
-        """Joins boundary edges of a body that coincide within a tolerance, and returns an Edited."""
+        """Joins boundary edges of a body that coincide within a tolerance; returns an Edited."""
     def remove(self, body: SupportsIndex) -> None:
         """Removes a body. Its number will not be used again."""
     def bodies(self) -> list[int]:
         """Numbers of all bodies, a list of int in the order in which they were added."""
     def set_positions(self, body: SupportsIndex, positions: _Array) -> None:
-        """Gives a body a new shape: positions (n, 3), a row for each vertex, as numbered when added."""
+        """Gives a body a new shape: positions (n, 3), a row for each vertex."""
     def write_positions(self, body: SupportsIndex, write: Callable[[NDArray[Any]], object]) -> None:
         """Gives a body a new shape that write(positions) fills into an array."""
     def set_motion(self, body: SupportsIndex, end: _Array) -> None:
-        """Begins a motion: end (n, 3) is where the vertices of a body are at the end of the step."""
+        """Begins a motion of a body: end (n, 3) is its shape at the end of the step."""
     def finish_motion(self) -> None:
-        """Ends all motions: every body that has one takes the shape at its end, without a copy."""
+        """Ends all motions: bodies that have one take the shape at its end, without a copy."""
     def advance_motion(self, t: float) -> None:
-        """Ends all motions on the way: every body that has one takes its shape at time t, 0 to 1."""
+        """Ends all motions on the way: bodies that have one take their shape at time t, 0 to 1."""
     def end_positions(self, body: SupportsIndex) -> NDArray[Any] | None:
-        """Shape at the end of a body's motion, a new array (n, 3) of the world's dtype, or None."""
+        """Shape at the end of a body's motion, a new array (n, 3) of the world's dtype or None."""
     def set_vertex_groups(self, body: SupportsIndex, groups: _Array) -> None:
         """Gives every vertex of a body a group, (n,) of integers from 0 to 2^32 - 1."""
     def vertex_groups(self, body: SupportsIndex) -> NDArray[np.uint32]:
@@ -174,7 +174,7 @@ class World:
     def rebuild(self, body: SupportsIndex) -> None:
         """Builds the tree of a body anew on its present shape. Never needed for right answers."""
     def set_filter(self, body: SupportsIndex, membership: int, mask: int) -> None:
-        """Sets the collision filter of a body, two 32-bit masks: what it is, and what it meets."""
+        """Sets the collision filter of a body, two 32-bit masks: what it is and what it meets."""
     def filter(self, body: SupportsIndex) -> tuple[int, int]:
         """Collision filter of a body, a tuple (membership, mask): see set_filter."""
     def ignored(self) -> list[tuple[int, int]]:
@@ -182,7 +182,7 @@ class World:
     def loose_box(self, body: SupportsIndex) -> tuple[list[float], list[float]] | None:
         """Loose box of a body, (lower, upper) corners as lists of three floats, or None."""
     def ignore(self, a: SupportsIndex, b: SupportsIndex) -> None:
-        """Keeps two bodies apart in queries of the whole world; a body from itself if named twice."""
+        """Keeps two bodies apart in queries of the whole world, or one body from itself."""
     def unignore(self, a: SupportsIndex, b: SupportsIndex) -> None:
         """Lets two bodies meet again that ignore keeps apart."""
     def set_loose_box(self, body: SupportsIndex, corners: tuple[_Corner, _Corner] | None) -> None:
@@ -190,70 +190,70 @@ class World:
     def triangle_count(self, body: SupportsIndex) -> int:
         """Number of triangles of a body, numbers left empty by an edit included."""
     def vertex_count(self, body: SupportsIndex) -> int:
-        """Number of vertices of a body, empty ones included: the rows that its positions must have."""
+        """Number of vertices of a body, empty ones included; the rows of its positions."""
     def tree_shape(self, body: SupportsIndex) -> TreeShape:
-        """Size of a body's tree, a TreeShape: depth, nodes, leaves. Movement does not change it."""
+        """Size of a body's tree, a TreeShape: depth, nodes, leaves."""
     def tree_cut(self, body: SupportsIndex, level: int) -> NDArray[np.uint32]:
         """Part of each triangle when a body's tree is cut at a level, (m,) uint32."""
     def triangles(self, body: SupportsIndex) -> NDArray[np.uint32]:
         """Faces of a body as added and edited, a new array (m, 3) uint32."""
     def positions(self, body: SupportsIndex) -> NDArray[Any]:
-        """Present shape of a body, a new array (n, 3) of the world's dtype; NaN for empty vertices."""
+        """Present shape of a body, a new array (n, 3) of the world's dtype."""
     def tree_boxes(self, body: SupportsIndex, level: int) -> TreeBoxes:
-        """Boxes of a level of a body's tree, a TreeBoxes: lower (k, 3), upper (k, 3), valid (k,)."""
+        """Boxes of a level of a body's tree, a TreeBoxes: lower, upper, valid."""
     def vertex_order(self, body: SupportsIndex) -> NDArray[np.uint32]:
-        """Order in which queries read the vertices of a body, (n,) uint32: vertex numbers as added."""
+        """Order in which queries read the vertices of a body, (n,) uint32."""
     def intersections(self, of: Selection = ...) -> Query[Pair]:
-        """Asks which triangles intersect: a Query, whose all() is (k, 4) uint32, sorted."""
+        """Asks which triangles intersect: a Query, all() of which is (k, 4) uint32, sorted."""
     def contacts(
         self, of: Selection = ..., *, only: ContactKind | int | None = None,
     ) -> ContactQuery:
-        """Asks which triangles intersect, and how: a ContactQuery, whose all() is a Contacts."""
+        """Asks which triangles intersect, and how: a ContactQuery, all() of which is a Contacts."""
     def vertex_triangle_candidates(self, of: Selection, radius: float) -> Query[VertexTriangle]:
-        """Asks which vertices are near which triangles: a Query, whose all() is (k, 4) uint32, sorted."""
+        """Asks which vertices are near which triangles: a Query of rows (k, 4) uint32."""
     def edge_edge_candidates(self, of: Selection, radius: float) -> Query[EdgeEdge]:
-        """Asks which edges are near which edges: a Query, whose all() is (k, 4) uint32, sorted."""
+        """Asks which edges are near which edges: a Query of rows (k, 4) uint32."""
     def close_vertex_triangle_pairs(self, of: Selection, distance: float) -> CloseQuery:
         """Asks which vertices and triangles are at most distance apart: a CloseQuery."""
     def close_edge_edge_pairs(self, of: Selection, distance: float) -> CloseQuery:
-        """Asks which edges are at most distance apart: a CloseQuery, whose all() is a ClosePairs."""
+        """Asks which edges are at most distance apart: a CloseQuery."""
     def close_triangle_pairs(self, of: Selection, distance: float) -> CloseQuery:
-        """Asks which triangles are at most distance apart: a CloseQuery, whose all() is a ClosePairs."""
+        """Asks which triangles are at most distance apart: a CloseQuery."""
     def distance(
         self, a: SupportsIndex, b: SupportsIndex, cut_off: float = ...,
     ) -> ClosePair | None:
-        """Distance of the surfaces of two bodies: the ClosePair of their closest triangles, or None."""
+        """Distance of the surfaces of two bodies, a ClosePair of their closest triangles."""
     def nearest_body(self, body: SupportsIndex, cut_off: float = ...) -> ClosePair | None:
-        """Distance of a body to the nearest other that may meet it, as filters say: a ClosePair."""
+        """Distance of a body to the nearest other that it may meet, a ClosePair."""
     def vertex_triangle_impacts(self, of: Selection, width: float = 1e-6) -> ImpactQuery:
         """Asks which vertices and triangles meet during the motion, and when: an ImpactQuery."""
     def edge_edge_impacts(self, of: Selection, width: float = 1e-6) -> ImpactQuery:
-        """Asks which edges meet during the motion, and when: an ImpactQuery, whose all() is an"""
+        """Asks which edges meet during the motion, and when: an ImpactQuery."""
     def first_impact(self, of: Selection, width: float = 1e-6) -> Impact | None:
         """First contact of the motion, an Impact of either kind, or None if nothing meets."""
     def free_step(self, of: Selection, min_distance: float = 0.0) -> FreeStep:
-        """How far everything may go without collision, a FreeStep: t, begins_in_contact, moves."""
+        """How far everything may go without collision: FreeStep(t, begins_in_contact, moves)."""
     def collision_free_step(self, of: Selection, min_distance: float = 0.0) -> float:
         """Time t from 0 to 1 up to which everything stays further apart than min_distance."""
     def clearance(self, of: Selection, cut_off: float) -> dict[int, NDArray[np.float64]]:
-        """How far each vertex may move before anything can touch: a dict of body to (n,) float64."""
+        """How far each vertex may move before anything can touch: dict of body to (n,) float64."""
     def statistics(self) -> Statistics:
-        """Counters of the work of the last query, a Statistics, Query.prepare before it included."""
+        """Counters of the work of the last query, Query.prepare included: a Statistics."""
     def memory_usage(self) -> int:
-        """Bytes of memory that this world holds, an int: bodies, trees, boxes, lists kept for queries."""
+        """Bytes of memory that this world holds: bodies, trees, boxes, lists kept for queries."""
     def validate(self) -> None:
-        """Checks every invariant of every tree. For tests and bug reports; it should never fail."""
+        """Checks every invariant of every tree, for tests and bug reports. Should never fail."""
 
 @final
 class CloseQuery:
-    """A question which elements are close, which is answered when it says how much is wanted."""
+    """A question which elements are close, answered by all() or first()."""
 
     def all(self, *, at_most: int | None = None) -> ClosePairs:
         """All close pairs, a ClosePairs of arrays, sorted by their numbers."""
     def first(self) -> ClosePair | None:
         """Some close pair, a ClosePair, or None if there is none."""
     def visit_some(self, visit: Callable[[ClosePairs], object]) -> bool:
-        """Calls visit(close) with some close pairs at a time, a ClosePairs, until it returns true."""
+        """Calls visit(close) with a ClosePairs of some at a time, until it returns true."""
     def prepare(self) -> None:
         """Does early what the query would do first, and asks nothing: see Query.prepare."""
 
@@ -264,11 +264,11 @@ class Edit:
     def body(self) -> int:
         """Number of the body whose mesh it changes."""
     def add_vertices(self, positions: _Array) -> NDArray[np.uint32]:
-        """Adds vertices at positions (k, 3), as World.add takes them; returns their numbers, (k,)"""
+        """Adds vertices at positions (k, 3); returns their numbers, (k,) uint32."""
     def place_vertex(self, vertex: SupportsIndex, position: _Array) -> None:
-        """Uses an empty vertex number again, at a position of three floats, (3,) float32 or float64."""
+        """Uses an empty vertex number again, at a position (3,) of float32 or float64."""
     def split_vertex(self, vertex: SupportsIndex, triangles: _Array) -> int:
-        """Adds a vertex in the place of another, which the given triangles have instead from now on."""
+        """Adds a vertex in the place of another, for the given triangles; returns its number."""
     def merge_vertices(self, kept: SupportsIndex, gone: SupportsIndex) -> None:
         """Replaces the vertex gone by the vertex kept in all triangles. kept stays where it is."""
     def add_triangles(self, faces: _Array) -> NDArray[np.uint32]:
@@ -276,33 +276,33 @@ class Edit:
     def set_triangle(
         self, triangle: SupportsIndex, corners: Sequence[SupportsIndex] | NDArray[np.integer[Any]],
     ) -> None:
-        """Gives a triangle other corners, three vertex numbers; uses an empty triangle number again."""
+        """Gives a triangle other corners, three vertex numbers; an empty number is used again."""
     def remove_triangles(self, triangles: _Array) -> None:
         """Removes triangles, (k,) of any integer type. Their numbers become empty."""
 
 @final
 class ContactQuery:
-    """A question which triangles intersect and how, answered when it says how much is wanted."""
+    """A question which triangles intersect and how, answered by all() or first()."""
 
     def all(self, *, at_most: int | None = None) -> Contacts:
         """All contacts, a Contacts of arrays, sorted by their numbers."""
     def first(self) -> Contact | None:
         """Some contact, a Contact, or None if there is none."""
     def visit_some(self, visit: Callable[[Contacts], object]) -> bool:
-        """Calls visit(contacts) with some contacts at a time, a Contacts, until it returns true."""
+        """Calls visit(contacts) with a Contacts of some at a time, until it returns true."""
     def prepare(self) -> None:
         """Does early what the query would do first, and asks nothing: see Query.prepare."""
 
 @final
 class ImpactQuery:
-    """A question which elements meet during the motion, answered when it says how much is wanted."""
+    """A question which elements meet during the motion, answered by all() or first()."""
 
     def all(self, *, at_most: int | None = None) -> Impacts:
         """All impacts, an Impacts of arrays, sorted by their numbers."""
     def first(self) -> Impact | None:
         """The impact with the least exact time, an Impact, or None if nothing meets."""
     def visit_some(self, visit: Callable[[Impacts], object]) -> bool:
-        """Calls visit(impacts) with some impacts at a time, an Impacts, until it returns true."""
+        """Calls visit(impacts) with an Impacts of some at a time, until it returns true."""
     def prepare(self) -> None:
         """Does early what the query would do first, and asks nothing: see Query.prepare."""
 
@@ -324,7 +324,7 @@ class Selection:
 
 @final
 class Query(Generic[_Hit]):
-    """A question to a world, which is answered when it says how much is wanted."""
+    """A question to a world, answered by all(), first() or visit()."""
 
     def all(self, *, at_most: int | None = None) -> _Hits:
         """All hits, a new array (k, 4) uint32, sorted."""
@@ -333,9 +333,9 @@ class Query(Generic[_Hit]):
     def visit(self, visit: Callable[[_Hit], object]) -> bool:
         """Calls visit(hit) for every hit once, until it returns true. Returns whether it did."""
     def visit_some(self, visit: Callable[[_Hits], object]) -> bool:
-        """Calls visit(rows) with some hits at a time, arrays (k, 4) uint32, until it returns true."""
+        """Calls visit(rows) with some hits at a time, (k, 4) uint32, until it returns true."""
     def prepare(self) -> None:
-        """Does early what the query would do first, and asks nothing: for timing, or in spare time."""
+        """Does early what the query would do first, and asks nothing."""
 
 @final
 class Check:
@@ -349,7 +349,7 @@ class Check:
         """Number of frames in the files, an int."""
     @property
     def places(self) -> tuple[Life, ...]:
-        """Places of the frames so far, a tuple of Life, most pairs in a frame first; at most a"""
+        """Places of the frames so far, at most 1000 Life, most pairs in a frame first."""
     def __iter__(self) -> Check: ...
     def __next__(self) -> Frame: ...
 
@@ -373,7 +373,7 @@ def check(
     fps: float = 30.0,
     threads: int = 1,
 ) -> Check:
-    """Checks files frame by frame, as the program `pliant check` does; returns a Check, an iterator."""
+    """Checks files frame by frame, as the program `pliant check` does: an iterator of Frame."""
 
 @overload
 def intersection_pairs(

@@ -94,7 +94,7 @@ pub(crate) struct Arguments {
     /// Keep vertices apart where boundary edges coincide; seams are then intersections
     #[arg(long)]
     pub(super) no_weld: bool,
-    /// Join also boundary edges that are at most TOL times the diagonal of their body apart, in
+    /// Also join boundary edges that are at most TOL times the diagonal of their body apart, in
     /// each frame: 1e-6
     #[arg(
         long,

@@ -247,7 +247,7 @@ fn wrong_words_numbers_and_indices() {
         ("large.obj", obj("v 1 0 1e39\n"), "z of vertex 4"),
         ("binary.obj", vec![0; 17 << 20], "is this a binary file?"),
         ("index.obj", obj("f 1 2 5\n"), "vertex 5"),
-        ("zero.obj", obj("f 0 1 2\n"), "numbered from 1"),
+        ("zero.obj", obj("f 0 1 2\n"), "numbers begin at 1"),
         ("index.ply", file(CORNERS, [0, 1, 3]), "vertex 3"),
         ("below.ply", file(CORNERS, [0, -1, 2]), "vertex -1"),
         ("index.npz", npz(CORNERS, [0, 1, 3]), "vertex 3"),

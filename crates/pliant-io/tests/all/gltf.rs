@@ -478,7 +478,7 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/meshes/0/primitives/0/indices",
             json!(1),
-            "accessor 1: has type \"VEC4\" and componentType 5123; \
+            "accessor 1: has type \"VEC4\" and componentType 5121; \
              indices need \"SCALAR\" and one of: 5121, 5123, 5125",
         ),
         (
@@ -1337,7 +1337,7 @@ fn what_is_wrong_with_compressed_views_is_said() {
         (
             "/filter",
             json!("COLOR"),
-            "with a filter that is not evaluated; export it without compression",
+            "with filter \"COLOR\", which is not evaluated; export it without compression",
         ),
     ] {
         let mut file = whole.clone();

@@ -260,9 +260,9 @@ fn arrays_of_every_type_name_and_order() {
                 for (word, is_said) in [
                     (dtype, true),
                     ("Fortran order", fortran),
-                    ("the one called `v`", vertices_are == "v"),
-                    ("the one called `verts`", vertices_are == "verts"),
-                    ("the one called `f`", faces_are == "f"),
+                    ("is called `v`", vertices_are == "v"),
+                    ("is called `verts`", vertices_are == "verts"),
+                    ("is called `f`", faces_are == "f"),
                 ] {
                     assert_eq!(said.contains(word), is_said, "{word}: {said}");
                 }

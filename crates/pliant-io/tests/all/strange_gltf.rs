@@ -153,7 +153,7 @@ fn counts_offsets_and_strides_that_overflow() {
         ),
         (
             |file| file["bufferViews"][0]["byteStride"] = json!(0),
-            "byteStride 0 is too small for rows of 12 bytes",
+            "byteStride 0 is too small for rows of 4 bytes",
         ),
         (
             |file| file["bufferViews"][0]["byteStride"] = json!(253),

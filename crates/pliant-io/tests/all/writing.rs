@@ -275,7 +275,11 @@ fn what_cannot_be_written_says_what_can() {
         let error = error(from, to);
         assert!(error.contains(words), "{error}");
     }
-    // A shape whose parts do not agree gives an error and no file.
+}
+
+#[test]
+fn shapes_whose_parts_do_not_agree_give_an_error_and_no_file() {
+    let folder = Folder::new();
     let good = Shape {
         triangles: vec![[0, 1, 2]],
         faces: Some(vec![0]),

@@ -1,4 +1,4 @@
-//! One body, which joins its mesh, its shape, its motion, its trees and its filters.
+//! Body of a world: joins its mesh, shape, motion, trees and filters.
 
 mod edits;
 mod looking;
@@ -38,15 +38,15 @@ pub(crate) struct Body<S> {
     filter: Filter<S>,
 }
 
-/// One of this many triangles is looked at to know how far vertices move.
+/// Stride of the triangles that are sampled to know how far vertices move.
 const SAMPLED: usize = 16;
 
-/// Edits of fewer than one of this many triangles are few: the tree does about as well as a fresh
-/// one.
+/// Divisor for few edits: with fewer edited than one of this many triangles, the tree does about as
+/// well as a fresh one.
 const OF_FEW: usize = 256;
 
 impl<S: Coordinate> Body<S> {
-    /// A body of validated parts; positions in the caller's order.
+    /// Makes a body of validated arguments, with positions in the caller's order.
     pub(crate) fn new(
         id: BodyId,
         triangles: &[[u32; 3]],
@@ -65,7 +65,7 @@ impl<S: Coordinate> Body<S> {
         }
     }
 
-    /// A body like this one, whose boxes are made anew.
+    /// Copies the body. Its boxes are made anew.
     pub(crate) fn copy(&self) -> Self {
         let order = self.mesh.order();
         Self {
@@ -109,21 +109,21 @@ impl<S: Coordinate> Body<S> {
         self.filter.set_groups(groups, self.mesh.vertex_count())
     }
 
-    /// The group of every vertex.
+    /// Group of every vertex.
     pub(crate) fn groups(&self) -> Vec<u32> {
         self.filter.groups(self.mesh.vertex_count())
     }
 
-    /// Numbers the edges as another body with this mesh does. Returns false if these are not its
-    /// edges, or if they have numbers already.
+    /// Numbers the edges as another body with this mesh does.
+    ///
+    /// Returns false if these are not its edges, or if they have numbers already.
     pub(crate) fn number_edges(&mut self, edges: &[[u32; 2]]) -> bool {
         self.mesh.number_edges(edges)
     }
 
     // The shape.
 
-    /// Validates a new shape and takes it over; or leaves the body as it is and says what was
-    /// wrong. A motion ends.
+    /// Validates a new shape and takes it over; on an error the body stays as it is. A motion ends.
     pub(crate) fn set_positions(
         &mut self,
         positions: &[[S; 3]],
@@ -157,27 +157,27 @@ impl<S: Coordinate> Body<S> {
         self.motion.stop();
     }
 
-    /// The shape as the caller orders vertices; empty ones are nowhere.
+    /// Positions in the caller's order. Positions of empty vertices are NaN.
     pub(crate) fn positions(&self) -> Cow<'_, [[S; 3]]> {
         self.mesh.without_empty_ones(self.stored_positions())
     }
 
-    /// The shape as the caller orders vertices; empty ones are somewhere.
+    /// Positions in the caller's order. Empty vertices are somewhere.
     fn stored_positions(&self) -> Cow<'_, [[S; 3]]> {
         self.shape.in_callers_order(self.mesh.order())
     }
 
-    /// Boxes made so far are stale, though the shape is the same: the origin moved.
+    /// Makes all boxes stale although the shape is the same: the origin moved.
     pub(crate) fn origin_moved(&mut self) {
         self.shape.begin_version();
     }
 
-    /// The exact extent, in the caller's coordinates.
+    /// Exact bounds, in the caller's coordinates.
     pub(crate) fn bounds(&self) -> Bounds<S> {
         self.shape.bounds()
     }
 
-    /// The box of the body, as a kind of query needs it.
+    /// Box of the body, as a kind of query needs it.
     #[inline]
     pub(crate) fn box_for(&self, boxes: BodyBoxes, origin: Origin) -> Aabb {
         let bounds = self.bounds();
@@ -186,12 +186,12 @@ impl<S: Coordinate> Body<S> {
         boxes.of(bounds.to_box(origin))
     }
 
-    /// The box that holds it in every pose, if it has one.
+    /// Loose box, which holds every pose, if there is one.
     pub(crate) fn loose(&self) -> Option<Bounds<S>> {
         self.filter.loose()
     }
 
-    /// The loose box as the broad phase works with it, if there is one.
+    /// Loose box for the broad phase, if there is one.
     pub(crate) fn loose_box(&self, origin: Origin) -> Option<Aabb> {
         self.loose().map(|loose| loose.to_box(origin))
     }
@@ -199,7 +199,7 @@ impl<S: Coordinate> Body<S> {
     pub(crate) fn set_loose_box(&mut self, loose: Option<Bounds<S>>) -> Result<(), ErrorKind> {
         if let Some(loose) = &loose {
             checks::is_box(loose)?;
-            // Where empty vertices were does not matter.
+            // Positions of empty vertices do not matter.
             let is_empty = |vertex| self.mesh.is_empty(vertex);
             checks::all_inside(loose, &self.stored_positions(), is_empty)?;
             if let Some(way) = self.motion.on() {
@@ -211,7 +211,7 @@ impl<S: Coordinate> Body<S> {
         Ok(())
     }
 
-    /// The corners of a triangle, whether the shape was brought into tree order or not; exact.
+    /// Exact corners of a triangle, whether or not the shape is in tree order.
     #[inline]
     pub(crate) fn corners_now(&self, triangle: TreeTriangle) -> [[f64; 3]; 3] {
         let order = self.mesh.order();
@@ -224,15 +224,15 @@ impl<S: Coordinate> Body<S> {
         corners
     }
 
-    /// The corners of a triangle, with padding; of a body that was brought into tree order.
+    /// Corners of a triangle, with padding. The shape must be in tree order.
     pub(crate) fn padded_corners(&self, triangle: TreeTriangle) -> [&[S; 4]; 3] {
         let positions = self.shape.in_tree_order();
         let corners = self.mesh.order().corners(triangle);
         corners.map(|vertex| positions.padded(vertex))
     }
 
-    /// Where the corners of elements are, as the caller numbers them; of a body that was brought
-    /// into tree order.
+    /// Positions of the corners of elements, by the caller's numbers. The shape must be in tree
+    /// order.
     pub(crate) fn places(&self) -> Option<Places<'_, S>> {
         self.mesh.places(self.shape.in_tree_order())
     }
@@ -257,13 +257,14 @@ impl<S: Coordinate> Body<S> {
             .begin(&self.shape, &end, self.filter.loose(), threads)
     }
 
-    /// Ends a motion: the body has the shape at its end.
+    /// Ends a motion. The shape is then the motion's end.
     pub(crate) fn finish_motion(&mut self) {
         self.motion.finish(&mut self.shape);
     }
 
-    /// Ends a motion at a part `t` of its way, from 0 to 1: the body has the shape there. The list
-    /// in which that is made is kept from call to call.
+    /// Ends a motion at a part `t` of its way, from 0 to 1. The shape is then the one at `t`.
+    ///
+    /// `shape` is scratch memory, kept from call to call.
     pub(crate) fn advance_motion(
         &mut self,
         instructions: Instructions,
@@ -292,14 +293,14 @@ impl<S: Coordinate> Body<S> {
         self.set_positions(shape, (instructions, executor))
     }
 
-    /// The shape at the end of a motion as the caller orders vertices, if there is a motion.
+    /// Positions at the end of a motion in the caller's order, if there is a motion.
     pub(crate) fn end_positions(&self) -> Option<Cow<'_, [[S; 3]]>> {
         let end = self.motion.on()?.end();
         let end = end.in_callers_order(self.mesh.order());
         Some(self.mesh.without_empty_ones(end))
     }
 
-    /// By how many lengths of an edge vertices move, on the mean of some of both; 0 if there is no
+    /// Mean displacement of sampled vertices, in mean lengths of edges. It is 0 if there is no
     /// motion.
     pub(crate) fn motion_in_edges(&self) -> f64 {
         let Some(end) = self.motion.on().map(Way::end) else {
@@ -323,23 +324,23 @@ impl<S: Coordinate> Body<S> {
 
     // Queries.
 
-    /// The number of triangles in tree order, with the ones that were only marked as taken out.
+    /// Number of triangles in tree order, including triangles that are marked as removed.
     pub(crate) fn triangle_count(&self) -> usize {
         self.mesh.tree_triangles()
     }
 
-    /// How many trees there are.
+    /// Number of parts, each with a tree.
     pub(crate) fn part_count(&self) -> usize {
         self.parts.len()
     }
 
-    /// The trees in numbers.
+    /// Depth, nodes and leaves of all trees.
     pub(crate) fn tree_shape(&self) -> TreeShape {
         self.parts.shape()
     }
 
-    /// Brings the shape into tree order, which everything that looks at it needs, and what is
-    /// looked at of a motion, if it is. Returns false if it was interrupted.
+    /// Brings the shape into tree order, which queries need, and with `reach` the motion too.
+    /// Returns false if interrupted.
     pub(crate) fn bring_into_tree_order(
         &mut self,
         reach: Option<Reach>,
@@ -352,14 +353,16 @@ impl<S: Coordinate> Body<S> {
             && reach.is_none_or(|reach| motion.bring_into_tree_order(shape, reach, threads, order))
     }
 
-    /// Finds out which triangles of a part share a vertex, unless that is known.
+    /// Finds which triangles of a part share a vertex, unless that is known.
     pub(crate) fn know_neighbours(&mut self, part: usize, executor: Executor) {
         let part = self.parts.one_mut(part);
         part.know_neighbours(self.mesh.order(), executor);
     }
 
-    /// Makes the boxes of elements, unless they hold the current shape and motion. Returns false if
-    /// it was interrupted. The body was brought into tree order, with its motion.
+    /// Makes the boxes of elements, unless they hold the present shape and motion. Returns false if
+    /// interrupted.
+    ///
+    /// Shape and motion must be in tree order.
     pub(crate) fn make_near_boxes(
         &mut self,
         which: Which,
@@ -382,7 +385,7 @@ impl<S: Coordinate> Body<S> {
         parts.all(|part| part.make_near_boxes(which, &source, elements, (instructions, executor)))
     }
 
-    /// One part of the body, as a query descends it; the body was brought into tree order.
+    /// One part of the body, as a query descends it. The shape must be in tree order.
     pub(crate) fn side(&mut self, needs: &Needs, origin: Origin, part: usize) -> Side<'_, S> {
         let (parts, side) = self.parts_and_sides(needs, origin);
         side(parts.one_mut(part))
@@ -399,14 +402,14 @@ impl<S: Coordinate> Body<S> {
         parts.two_mut(numbers).map(side)
     }
 
-    /// One part of the body as tasks read it; what they read of it was made ready.
+    /// Read-only view of one part for the tasks of a query; all that they read was made ready.
     pub(crate) fn view(&self, needs: &Needs, origin: Origin, part: usize) -> Option<View<'_, S>> {
         let Self { mesh, shape, motion, parts, filter, .. } = self;
         let part = parts.all().nth(part)?.for_reading(needs.box_set)?;
         Some(Queried::of((mesh, shape, motion, filter), needs, origin).side(part))
     }
 
-    /// The parts, and how a query descends one of them.
+    /// All parts, and a function that makes the view of one for a query.
     #[inline]
     fn parts_and_sides<'b>(
         &'b mut self,
@@ -418,14 +421,14 @@ impl<S: Coordinate> Body<S> {
         (parts, move |part: &'b mut Part| queried.side(part.for_query(set)))
     }
 
-    /// All boxes are stale: some may have been left half made.
+    /// Makes all boxes stale: an interruption may have left some half made.
     pub(crate) fn forget_boxes(&mut self) {
         self.parts.all_mut().for_each(Part::forget_boxes);
     }
 
     // The trees.
 
-    /// Notes what queries did with the body.
+    /// Notes the work that queries did with the body.
     pub(crate) fn note_work(&mut self, work: Work) {
         let first = self.parts.in_first();
         let is_hardly_edited = self.mesh.out_of_date(first) * OF_FEW < first;
@@ -433,19 +436,19 @@ impl<S: Coordinate> Body<S> {
             .note_work(work, self.shape.version(), is_hardly_edited);
     }
 
-    /// How much more the tree does than a fresh one would.
+    /// Factor by which the tree does more work than a fresh one would.
     pub(crate) fn tree_quality(&self) -> f64 {
         self.rebuild.quality()
     }
 
-    /// Builds the tree anew, of the current shape.
+    /// Rebuilds the tree from the present shape. O(n log n).
     pub(crate) fn rebuild(&mut self, options: &Options) {
         let (order, tree) = build(self.mesh.topology(), &self.stored_positions(), options);
         self.exchange_tree(order, tree, &[]);
     }
 
-    /// Goes on with mending, or begins it where it pays. Returns whether the tree is another one
-    /// now.
+    /// Continues to mend the tree, or begins to where it pays. Returns whether the tree was
+    /// exchanged.
     pub(crate) fn mend(&mut self, options: &Options) -> bool {
         let know_neighbours = self.parts.know_neighbours();
         let (mesh, shape) = (&self.mesh, &self.shape);
@@ -454,7 +457,7 @@ impl<S: Coordinate> Body<S> {
             return false;
         };
         self.exchange_tree(order, tree, &changed);
-        // Triangles that were edited since are marked as gone in the tree, or come behind it.
+        // Triangles that were edited since are marked as removed in the tree, and come behind it.
         if !changed.is_empty() {
             self.mesh.leave_orphans(&changed, &mut self.shape);
             let coming = changed.iter().filter(|(_, [_, now])| *now != EMPTY);
@@ -463,8 +466,9 @@ impl<S: Coordinate> Body<S> {
         true
     }
 
-    /// Exchanges the tree for another, over triangles in another order. Those that were changed
-    /// since it was begun are taken out of it.
+    /// Exchanges the tree for another, over triangles in another order.
+    ///
+    /// Triangles that were changed since it was begun are taken out of it.
     fn exchange_tree(&mut self, order: Order, tree: Tree, changed: &[Changed]) {
         self.shape.forget_tree_order(self.mesh.order());
         self.shape.begin_version();

@@ -1,4 +1,4 @@
-//! The tree that the options ask for.
+//! Building of a tree as the options ask for.
 
 use crate::geometry::Real;
 use crate::ids::TreeVertex;
@@ -7,7 +7,7 @@ use crate::options::{Options, Partition};
 use crate::tree::Tree;
 use crate::tree::build::{Balanced, Connectivity, CutAt, InitialShape, Plan, plan};
 
-/// The tree that the options ask for, and the order it brings the mesh into.
+/// Builds the tree that the options ask for, and the order into which it brings the mesh.
 pub(crate) fn build<S: Real>(
     topology: &Topology,
     positions: &[[S; 3]],
@@ -31,7 +31,7 @@ pub(crate) fn build<S: Real>(
     (order, tree)
 }
 
-/// The plan that the options ask for.
+/// Divides triangles by the partition that the options ask for.
 pub(crate) fn divide<S: Real>(
     triangles: &[[u32; 3]],
     positions: &[[S; 3]],

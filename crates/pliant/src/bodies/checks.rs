@@ -1,11 +1,11 @@
-//! Positions that no body can have.
+//! Checks that refuse bad meshes, positions and loose boxes.
 
 use crate::error::ErrorKind;
 use crate::geometry::{Bounds, Real};
 use crate::mesh;
 use pliant_exact::denormals_are_kept;
 
-/// Refuses what no body can be made of.
+/// Refuses triangles and positions of which no body can be made. O(n).
 pub(crate) fn validate<S: Real>(
     triangles: &[[u32; 3]],
     positions: &[[S; 3]],
@@ -17,7 +17,7 @@ pub(crate) fn validate<S: Real>(
     none_is_lost(positions)
 }
 
-/// The error for the first position that is out of range; there is one.
+/// The error for the first position that is out of range. There is one.
 pub(crate) fn out_of_range<S: Real>(positions: &[[S; 3]]) -> ErrorKind {
     let mut all = positions.iter();
     let vertex = all.position(|&position| !is_in_range(position));
@@ -28,8 +28,9 @@ pub(crate) fn out_of_range<S: Real>(positions: &[[S; 3]]) -> ErrorKind {
     }
 }
 
-/// Refuses coordinates so small that this thread, where subnormal numbers are flushed, would lose
-/// them. Costs two products where they are not.
+/// Refuses coordinates that are too small for this thread, if it flushes subnormal numbers.
+///
+/// Where it does not, that takes two products.
 pub(crate) fn none_is_lost<S: Real>(positions: &[[S; 3]]) -> Result<(), ErrorKind> {
     if denormals_are_kept() {
         return Ok(());
@@ -41,7 +42,7 @@ pub(crate) fn none_is_lost<S: Real>(positions: &[[S; 3]]) -> Result<(), ErrorKin
     }
 }
 
-/// Refuses positions outside a loose box; where empty vertices are does not matter.
+/// Refuses positions outside a loose box. Positions of empty vertices do not matter.
 pub(crate) fn all_inside<S: Real>(
     loose: &Bounds<S>,
     positions: &[[S; 3]],
@@ -57,7 +58,7 @@ pub(crate) fn all_inside<S: Real>(
     })
 }
 
-/// Refuses the position of one vertex.
+/// Refuses a bad position of one vertex.
 pub(crate) fn one<S: Real>(
     vertex: usize,
     position: [S; 3],
@@ -75,7 +76,7 @@ pub(crate) fn one<S: Real>(
     none_is_lost(&[position]).map_err(|_| ErrorKind::NeedsSubnormals { vertex })
 }
 
-/// Refuses a loose box that is none.
+/// Refuses a loose box that is not a box.
 pub(crate) fn is_box<S: Real>(loose: &Bounds<S>) -> Result<(), ErrorKind> {
     let is_box = is_in_range(loose.lo)
         && is_in_range(loose.hi)

@@ -1,24 +1,28 @@
-//! What a tree looks like, for those who draw it.
+//! Trees for drawing: boxes of nodes, and counts.
 
-/// A node of a tree, drawn as a box.
+/// Box of a tree's node, for drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeBox<S> {
-    /// The smallest coordinates of the triangles below the node, as the caller has them.
+    /// Smallest coordinates of the triangles below the node, in the caller's coordinates.
     pub lower: [S; 3],
-    /// The largest coordinates.
+    /// Largest coordinates of the triangles below the node.
     pub upper: [S; 3],
-    /// Whether the tree holds this box: it was made for the shape that the body has now. A query makes the boxes that it
-    /// needs; the others are stale, as they were for some shape before, and nothing reads them.
+    /// Whether the tree holds this box, made for the present shape of the body.
+    ///
+    /// A query makes the boxes that it needs. The others are stale: they are of an earlier shape,
+    /// and nothing reads them.
     pub valid: bool,
 }
 
-/// The tree of a body in numbers; the structure only, which no movement changes. Of a body whose mesh was edited, its trees together.
+/// Depth and counts of a body's tree. It is about structure only, which no movement changes.
+///
+/// For a body whose mesh was edited, it is about all of its trees together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TreeShape {
-    /// The level of the deepest leaf, where the root is level 0: the n of the paper's n / 2.
+    /// Level of the deepest leaf, where the root is level 0: the n of the paper's n / 2.
     pub depth: u32,
-    /// All nodes, leaves and root included: the boxes of a complete update.
+    /// Number of nodes, leaves and root included: the boxes of a complete update.
     pub nodes: usize,
-    /// Nodes that hold triangles.
+    /// Number of nodes that hold triangles.
     pub leaves: usize,
 }

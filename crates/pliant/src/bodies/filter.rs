@@ -1,4 +1,4 @@
-//! The filters of a body: membership and mask, a loose box, groups of vertices.
+//! Collision filters of a body: membership and mask, a loose box, groups of vertices.
 
 use crate::error::ErrorKind;
 use crate::geometry::Bounds;
@@ -6,12 +6,12 @@ use crate::held::{self, Held, held};
 use crate::mesh::{Elements, Order, Outcome};
 use crate::queries::Groups;
 
-/// The filters of a body: which others it may meet, and which of its vertices may meet.
+/// Filters of a body: which bodies it may meet, and which of its vertices may meet.
 pub(crate) struct Filter<S> {
     membership: u32,
     mask: u32,
     loose: Option<Bounds<S>>,
-    /// None where all vertices meet.
+    /// Collision groups of vertices. None where all vertices meet.
     groups: Option<Box<VertexGroups>>,
 }
 
@@ -31,7 +31,7 @@ impl VertexGroups {
 }
 
 impl<S: Copy> Filter<S> {
-    /// A filter that lets everything meet.
+    /// The filter that lets everything meet.
     pub(crate) const fn none() -> Self {
         Self {
             membership: u32::MAX,
@@ -58,17 +58,18 @@ impl<S: Copy> Filter<S> {
         (self.membership, self.mask)
     }
 
-    /// Whether the masks of two bodies let them meet.
+    /// Whether the masks of two bodies let them meet: each membership shares a bit with the other
+    /// mask.
     pub(crate) fn lets_meet(&self, other: &Self) -> bool {
         self.membership & other.mask != 0 && other.membership & self.mask != 0
     }
 
-    /// The box that holds the body in every pose, if it has one.
+    /// Loose box, which holds every pose, if there is one.
     pub(crate) fn loose(&self) -> Option<Bounds<S>> {
         self.loose
     }
 
-    /// Gives the body a loose box, which was checked, or none.
+    /// Sets the loose box, which was checked, or removes it.
     pub(crate) fn set_loose(&mut self, loose: Option<Bounds<S>>) {
         self.loose = loose;
     }
@@ -87,7 +88,7 @@ impl<S: Copy> Filter<S> {
         Ok(())
     }
 
-    /// The group of every vertex.
+    /// Group of every vertex.
     pub(crate) fn groups(&self, vertices: usize) -> Vec<u32> {
         match &self.groups {
             None => vec![0; vertices],
@@ -95,7 +96,7 @@ impl<S: Copy> Filter<S> {
         }
     }
 
-    /// Finds out the groups of all elements, unless they are known or vertices have none.
+    /// Computes the groups of all elements, unless they are known or vertices have none.
     pub(crate) fn know_groups(&mut self, order: &Order, elements: &Elements) {
         if let Some(groups) = &mut self.groups
             && groups.of_elements.is_none()
@@ -104,7 +105,7 @@ impl<S: Copy> Filter<S> {
         }
     }
 
-    /// The groups of all elements, if they are known.
+    /// Groups of all elements, if they are known.
     pub(crate) fn known_groups(&self) -> Option<&Groups> {
         self.groups.as_ref()?.of_elements.as_ref()
     }
@@ -121,15 +122,15 @@ impl<S: Copy> Filter<S> {
         }
     }
 
-    /// Follows an edit: a vertex that was split from another has its group, other new ones have
-    /// none.
+    /// Updates the groups after an edit. A vertex that was split from another has its group, other
+    /// new ones have none.
     pub(crate) fn follow(&mut self, outcome: &Outcome<S>) {
         self.forget_tree_order();
         let Some(groups) = &mut self.groups else {
             return;
         };
-        // Of vertices as they were before: one that was split may have gone since, and its number
-        // may be another's.
+        // Groups before the edit: a vertex that was split may have gone since, and its number may
+        // be reused.
         let group = |vertex: u32| {
             let from = outcome.split_from.get(&vertex);
             from.map_or(0, |&from| groups.callers[from as usize])

@@ -1,4 +1,4 @@
-//! The bodies of a world, and which of them may meet.
+//! List of the bodies of a world, and of the pairs that may not meet.
 
 use super::body::Body;
 use crate::error::{Error, ErrorKind};
@@ -9,11 +9,14 @@ use crate::kernels::Coordinate;
 use crate::selection::Selection;
 use std::collections::BTreeSet;
 
+/// Bodies of a world.
 pub(crate) struct Bodies<S> {
-    /// In no order that matters: a removed body's place is taken by the last. Each in memory of its
-    /// own, so that a list that grows holds no room for bodies that are not there.
+    /// Bodies in no order that matters: the last takes a removed body's place.
+    ///
+    /// Each is in memory of its own, so that a growing list holds no room for bodies that are not
+    /// there.
     list: Vec<Box<Body<S>>>,
-    /// By rank: the ids in order, and where the bodies stand in the list.
+    /// Ids in order, and places of the bodies in the list, both by rank.
     ids: Vec<BodyId>,
     places: Vec<Place>,
     next_id: Option<u32>,
@@ -34,13 +37,12 @@ impl<S> Default for Bodies<S> {
 }
 
 impl<S: Coordinate> Bodies<S> {
-    /// The id of the next body.
+    /// Id of the next body.
     pub(crate) fn next_id(&self) -> Result<BodyId, ErrorKind> {
         self.next_id.map(BodyId).ok_or(ErrorKind::TooManyBodies)
     }
 
-    /// No body added from now on has an id below this one; with none, no other can be added. Ids
-    /// never go back.
+    /// Raises the next id. With none, no body can be added any more. Ids never go back.
     pub(crate) fn skip_ids(&mut self, next: Option<u32>) {
         self.next_id = match (self.next_id, next) {
             (Some(now), Some(next)) => Some(now.max(next)),
@@ -48,7 +50,7 @@ impl<S: Coordinate> Bodies<S> {
         };
     }
 
-    /// The same bodies once more.
+    /// Copies all bodies. Their boxes are made anew.
     pub(crate) fn copy(&self) -> Self {
         Self {
             list: self.list.iter().map(|body| Box::new(body.copy())).collect(),
@@ -67,7 +69,7 @@ impl<S: Coordinate> Bodies<S> {
         self.list.push(Box::new(body));
     }
 
-    /// Removes a body. Returns the rank that it had; those after it are one rank higher now.
+    /// Removes a body. Returns its former rank; the ranks of later bodies move down by one. O(n).
     pub(crate) fn remove(&mut self, id: BodyId) -> Result<Rank, Error> {
         let rank = self.rank(id)?;
         self.ids.remove(rank.index());
@@ -85,7 +87,7 @@ impl<S: Coordinate> Bodies<S> {
         Ok(rank)
     }
 
-    /// Where a body stands among those that there are.
+    /// Rank of a body among the present ones. O(log n).
     fn rank(&self, id: BodyId) -> Result<Rank, Error> {
         let rank = self.ids.binary_search(&id);
         rank.map(|rank| Rank(rank as u32)).map_err(|_| Error {
@@ -94,7 +96,7 @@ impl<S: Coordinate> Bodies<S> {
         })
     }
 
-    /// Where a body stands in the list.
+    /// Place of a body in the list. O(log n).
     pub(crate) fn place(&self, id: BodyId) -> Result<Place, Error> {
         Ok(self.places[self.rank(id)?.index()])
     }
@@ -103,12 +105,12 @@ impl<S: Coordinate> Bodies<S> {
         self.list.len()
     }
 
-    /// The ids of all bodies, in order.
+    /// Ids of all bodies, in order.
     pub(crate) fn ids(&self) -> &[BodyId] {
         &self.ids
     }
 
-    /// Where the bodies stand in the list, by rank.
+    /// Places of the bodies in the list, by rank.
     #[inline]
     pub(crate) fn places(&self) -> &[Place] {
         &self.places
@@ -129,7 +131,7 @@ impl<S: Coordinate> Bodies<S> {
         self.list.iter().map(Box::as_ref)
     }
 
-    /// The same, to change them.
+    /// All bodies, mutable, in the order of the list.
     pub(crate) fn all_mut(&mut self) -> impl Iterator<Item = &mut Body<S>> {
         self.list.iter_mut().map(Box::as_mut)
     }
@@ -148,7 +150,7 @@ impl<S: Coordinate> Bodies<S> {
         Ok(self.at_mut(place))
     }
 
-    /// The bodies at two different places.
+    /// Bodies at two different places.
     pub(crate) fn two(&mut self, places: [Place; 2]) -> [&mut Body<S>; 2] {
         let places = places.map(Place::index);
         let both = self.list.get_disjoint_mut(places);
@@ -156,18 +158,18 @@ impl<S: Coordinate> Bodies<S> {
         [a, b]
     }
 
-    /// From now on two bodies, or one with itself, do not meet.
+    /// Makes two bodies, or one with itself, not meet from now on.
     pub(crate) fn ignore(&mut self, a: BodyId, b: BodyId) {
         self.ignored.extend([(a, b), (b, a)]);
     }
 
-    /// Takes that back.
+    /// Makes two ignored bodies meet again.
     pub(crate) fn meet_again(&mut self, a: BodyId, b: BodyId) {
         self.ignored.remove(&(a, b));
         self.ignored.remove(&(b, a));
     }
 
-    /// The pairs of bodies that do not meet, each once, the lower first; sorted.
+    /// Pairs of bodies that do not meet, each once, the lower id first, sorted.
     pub(crate) fn ignored(&self) -> Vec<[BodyId; 2]> {
         let once = self.ignored.iter().filter(|(a, b)| a <= b);
         once.map(|&(a, b)| [a, b]).collect()
@@ -178,7 +180,7 @@ impl<S: Coordinate> Bodies<S> {
         a.may_meet(b) && !self.ignored.contains(&(a.id(), b.id()))
     }
 
-    /// Refuses a selection that names what is not there.
+    /// Refuses a selection that names bodies that are not there, or one body twice.
     pub(crate) fn validate(&self, of: Selection) -> Result<(), Error> {
         match of {
             Selection::World | Selection::Everything => Ok(()),

@@ -1,4 +1,4 @@
-//! The mesh of a body, in the caller's numbers and in tree order.
+//! Mesh of a body, in the caller's numbers and in tree order.
 
 mod edits;
 
@@ -14,68 +14,68 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-/// The mesh of a body, with the lists that edits and queries of elements need.
+/// Mesh of a body, with the lists that edits and queries of elements need.
 pub(crate) struct BodyMesh<S> {
     body: BodyId,
     topology: Topology,
     order: Order,
-    /// Edges, and which triangle owns what, once somebody asks.
+    /// Edges, and which triangle owns which elements. Made when first needed.
     elements: OnceLock<Box<Elements>>,
-    /// Whether somebody asked for edges before the tree was exchanged or the body was copied.
+    /// Whether edges were asked for before the tree was exchanged or the body was copied.
     edges_were_known: bool,
-    /// Present once the mesh was edited.
+    /// Lists that edits need. Present once the mesh was edited.
     edits: Option<Box<Edits<S>>>,
-    /// Counts meshes.
+    /// Version of the mesh: counts its changes.
     version: u64,
-    /// Counts meshes, and orders of a mesh.
+    /// Version of mesh and order together: counts changes of either.
     order_version: u64,
 }
 
-/// Lists of a mesh that was edited: where things are in tree order, and which are gone.
+/// Lists of an edited mesh: places in tree order, and removed triangles and vertices.
 #[derive(Clone)]
 pub(crate) struct Edits<S> {
-    /// For each of the caller's triangles its place in tree order.
+    /// Place in tree order of each of the caller's triangles.
     places: Vec<u32>,
-    /// For each of the caller's vertices its number in tree order.
+    /// Number in tree order of each of the caller's vertices.
     slots: Vec<TreeVertex>,
     at: TrianglesAt,
-    /// Triangles in tree order that were taken out.
+    /// Removed triangles, in tree order.
     gone: Bits,
-    /// Vertices, as the caller numbers them, that are empty.
+    /// Empty vertices, by the caller's numbers.
     empty: Bits,
-    /// By the caller's number of an alias, the orphans in tree order that stand where it does; some
-    /// of these may have another by now.
+    /// Orphans in tree order that stand where an alias does, by the caller's number of the alias.
+    /// Some may have another alias by now.
     orphans_of: BTreeMap<u32, Vec<u32>>,
-    /// A shape in which empty vertices are somewhere; memory that is kept from shape to shape.
+    /// Scratch memory for a shape in which empty vertices are somewhere.
     patched: Vec<[S; 3]>,
-    /// All vertices in tree order, once somebody asks and there are orphans.
+    /// All vertices in tree order without orphans. Made when first needed, if there are orphans.
     without_orphans: OnceLock<Vec<u32>>,
 }
 
-/// Where the corners of a body's elements are, as the caller numbers all of it.
+/// Positions of the corners of a body's elements, by the caller's numbers.
 pub(crate) struct Places<'b, S> {
     triangles: &'b [[u32; 3]],
     edges: &'b [[u32; 2]],
-    /// For each vertex its number in tree order, in which positions are.
+    /// Number in tree order, in which positions are, of each vertex.
     tree_vertices: &'b [TreeVertex],
     positions: &'b Points<S>,
 }
 
 impl<'b, S> Places<'b, S> {
-    /// Where a vertex is, with padding.
+    /// Position of a vertex, with padding.
     #[inline(always)]
     pub(crate) fn vertex(&self, vertex: u32) -> &'b [S; 4] {
         self.positions.padded(self.tree_vertices[vertex as usize])
     }
 
-    /// Where the ends of an edge are.
+    /// Positions of the ends of an edge.
     #[inline(always)]
     pub(crate) fn edge(&self, edge: u32) -> [&'b [S; 4]; 2] {
         let [a, b] = self.edges[edge as usize];
         [self.vertex(a), self.vertex(b)]
     }
 
-    /// Where the corners of a triangle are.
+    /// Positions of the corners of a triangle.
     #[inline(always)]
     pub(crate) fn triangle(&self, triangle: u32) -> [&'b [S; 4]; 3] {
         let [a, b, c] = self.triangles[triangle as usize];
@@ -97,13 +97,13 @@ impl<S: Coordinate> BodyMesh<S> {
         }
     }
 
-    /// Takes the place of another mesh of the same body: versions go on from there.
+    /// Continues the versions of the mesh that this one replaces in the same body.
     pub(crate) fn succeed(&mut self, before: &Self) {
         self.version = before.version + 1;
         self.order_version = before.order_version + 1;
     }
 
-    /// Copies the mesh. Edges are found out again, unless an edit has kept their numbers.
+    /// Copies the mesh. Edges are found again, unless an edit has kept their numbers.
     pub(crate) fn copy(&self) -> Self {
         let known = self.elements.get().filter(|known| known.follows());
         Self {
@@ -116,7 +116,7 @@ impl<S: Coordinate> BodyMesh<S> {
         }
     }
 
-    /// The body that has this mesh.
+    /// Id of the body that has this mesh.
     #[inline]
     pub(crate) fn body(&self) -> BodyId {
         self.body
@@ -127,7 +127,7 @@ impl<S: Coordinate> BodyMesh<S> {
         &self.topology
     }
 
-    /// The triangles as the caller numbers them, empty numbers included.
+    /// Triangles by the caller's numbers, including empty numbers.
     pub(crate) fn triangles(&self) -> &[[u32; 3]] {
         self.topology.triangles()
     }
@@ -136,41 +136,41 @@ impl<S: Coordinate> BodyMesh<S> {
         self.topology.vertex_count()
     }
 
-    /// The version of mesh and order together.
+    /// Version of mesh and order together.
     pub(crate) fn order_version(&self) -> u64 {
         self.order_version
     }
 
-    /// Whether a number is that of a triangle, for each.
+    /// Whether each number of a triangle is in use.
     pub(crate) fn live_triangles(&self) -> Vec<bool> {
         let triangles = self.triangles().iter();
         triangles.map(|&corners| corners != EMPTY).collect()
     }
 
-    /// Whether a number is that of a vertex, for each.
+    /// Whether each number of a vertex is in use.
     pub(crate) fn live_vertices(&self) -> Vec<bool> {
         let vertices = 0..self.vertex_count() as u32;
         vertices.map(|vertex| !self.is_empty(vertex)).collect()
     }
 
-    /// Whether a number is that of no vertex.
+    /// Whether a number of a vertex is not in use.
     pub(crate) fn is_empty(&self, vertex: u32) -> bool {
         let edits = self.edits.as_ref();
         edits.is_some_and(|edits| edits.empty.has(vertex))
     }
 
-    /// How many numbers are those of no vertex.
+    /// Number of vertex numbers that are not in use.
     fn empty_count(&self) -> usize {
         let edits = self.edits.as_ref();
         edits.map_or(0, |edits| edits.empty.count())
     }
 
-    /// Whether a triangle or a vertex is gone whose number was not used again.
+    /// Whether any number of a triangle or a vertex is not in use.
     pub(crate) fn has_empty_numbers(&self) -> bool {
         self.topology.live_count() < self.triangles().len() || self.empty_count() > 0
     }
 
-    /// The elements; they are found out the first time, unless `stop` says so on the way.
+    /// Edges and owners of elements. Computed the first time; none if `stop` interrupts that.
     pub(crate) fn elements(&self, stop: &dyn Fn() -> bool) -> Option<&Elements> {
         self.known_elements().or_else(|| {
             let new = Elements::new(&self.topology, &self.order, stop)?;
@@ -178,28 +178,29 @@ impl<S: Coordinate> BodyMesh<S> {
         })
     }
 
-    /// The elements, if they are known.
+    /// Edges and owners of elements, if they are known.
     pub(crate) fn known_elements(&self) -> Option<&Elements> {
         self.elements.get().map(Box::as_ref)
     }
 
-    /// Whether the edges have numbers that stay: from when somebody asks for them on.
+    /// Whether edges have numbers that stay: from the first time that they are asked for.
     fn edges_are_known(&self) -> bool {
         self.edges_were_known || self.elements.get().is_some()
     }
 
-    /// The edges, as the caller numbers them.
+    /// Edges by the caller's numbers.
     pub(crate) fn edges(&self) -> &[[u32; 2]] {
         self.elements(&|| false).map_or(&[], Elements::callers)
     }
 
-    /// The edges, if they have numbers that stay.
+    /// Edges, if they have numbers that stay.
     pub(crate) fn numbered_edges(&self) -> Option<&[[u32; 2]]> {
         self.edges_are_known().then(|| self.edges())
     }
 
-    /// Numbers the edges as another body with this mesh does. Returns false if these are not its
-    /// edges, or if they have numbers already.
+    /// Numbers the edges as another body with this mesh does.
+    ///
+    /// Returns false if these are not its edges, or if they have numbers already.
     pub(crate) fn number_edges(&mut self, edges: &[[u32; 2]]) -> bool {
         let is_new = !self.edges_are_known() && self.elements(&|| false).is_some();
         let (elements, topology) = (self.elements.get_mut(), &self.topology);
@@ -211,32 +212,31 @@ impl<S: Coordinate> BodyMesh<S> {
         &self.order
     }
 
-    /// The number of triangles in tree order, with the ones that were only marked as taken out.
+    /// Number of triangles in tree order, including triangles that are marked as removed.
     pub(crate) fn tree_triangles(&self) -> usize {
         self.order.all_corners().len()
     }
 
-    /// Whether a triangle in tree order was taken out of the mesh.
+    /// Whether a triangle in tree order was removed from the mesh.
     #[inline]
     pub(crate) fn is_gone(&self, triangle: TreeTriangle) -> bool {
         let edits = self.edits.as_ref();
         edits.is_some_and(|edits| edits.gone.has(triangle.0))
     }
 
-    /// The caller's numbers of the triangles of a run in tree order that were not taken out.
+    /// Caller's numbers of the triangles of a run in tree order that were not removed.
     pub(crate) fn still_there(&self, run: Range<u32>) -> impl Iterator<Item = u32> {
         let there = run.map(TreeTriangle).filter(|&place| !self.is_gone(place));
         there.map(|place| self.order.caller_triangle(place).0)
     }
 
-    /// The number of triangles that were taken out, or came behind the first part, which has
-    /// `first`.
+    /// Number of triangles that were removed, or came behind the first part, which has `first`.
     pub(crate) fn out_of_date(&self, first: usize) -> usize {
         let gone = self.edits.as_ref().map_or(0, |edits| edits.gone.count());
         self.tree_triangles() - first + gone
     }
 
-    /// The triangles and vertices that were taken out, if there are any.
+    /// Removed triangles and vertices that are still in the trees, if there are any.
     pub(crate) fn removed(&self) -> Option<Removed<'_>> {
         let (triangles, vertices) = (&self.edits.as_ref()?.gone, self.order.orphans());
         let is_any = triangles.count() > 0 || vertices.count() > 0;
@@ -258,8 +258,10 @@ impl<S: Coordinate> BodyMesh<S> {
         }
     }
 
-    /// Where the corners of a triangle are in tree order. Its place there is used as long as the
-    /// mesh was not edited, its corners as the caller numbers them after that.
+    /// Numbers in tree order of the corners of a triangle.
+    ///
+    /// Its place in tree order is used until the mesh is edited, the caller's numbers of its
+    /// corners after that.
     pub(crate) fn slots(&self, place: usize, corners: [u32; 3]) -> [TreeVertex; 3] {
         match &self.edits {
             Some(edits) => corners.map(|vertex| edits.slots[vertex as usize]),
@@ -267,7 +269,7 @@ impl<S: Coordinate> BodyMesh<S> {
         }
     }
 
-    /// Where the corners of elements are in a shape in tree order, as the caller numbers them.
+    /// Positions of the corners of elements in a shape in tree order, by the caller's numbers.
     pub(crate) fn places<'b>(&'b self, positions: &'b Points<S>) -> Option<Places<'b, S>> {
         let elements = self.elements(&|| false)?;
         Some(Places {
@@ -281,7 +283,7 @@ impl<S: Coordinate> BodyMesh<S> {
         })
     }
 
-    /// A new shape, made of positions: empty vertices are put where another vertex is.
+    /// A new shape from positions, in which empty vertices are put where another vertex is.
     pub(crate) fn new_shape<'n>(&'n mut self, positions: &'n [[S; 3]]) -> NewShape<'n, S> {
         let empty = self.empty_count();
         let used = self.order.used_vertices() - self.order.orphans().count();
@@ -297,7 +299,7 @@ impl<S: Coordinate> BodyMesh<S> {
         }
     }
 
-    /// A shape in which vertices that are empty are nowhere.
+    /// Positions in which empty vertices are NaN.
     pub(crate) fn without_empty_ones<'p>(
         &self,
         mut positions: Cow<'p, [[S; 3]]>,

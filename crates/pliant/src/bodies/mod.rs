@@ -1,10 +1,19 @@
-//! Deforming bodies: each a mesh, the trees over it, and the shape that it has now.
+//! Deforming bodies: each a mesh, the trees over it, and its present shape.
 //!
-//! A `body` joins things that do not know each other's fields: its `mesh`; its `shape`, in the
-//! caller's order or in the tree's; its `motion`; its `parts`, each a tree over a run of triangles;
-//! a `rebuild` of these when they have decayed; and a `filter`, which says what may meet. `checks`
-//! refuse positions, and `build` makes the tree that the options ask for. `debug_view` is for those
-//! who look at trees. All bodies of a world are a `list`.
+//! A `body` joins items that do not know each other's fields.
+//!
+//! | module | item |
+//! |---|---|
+//! | `mesh` | mesh of a body, in the caller's numbers and in tree order |
+//! | `shape` | positions, in the caller's order, in tree order, or both |
+//! | `motion` | straight lines from the present shape to the next |
+//! | `parts` | trees, each over a run of triangles |
+//! | `rebuild` | fresh trees for bodies whose tree has decayed |
+//! | `filter` | filters: which bodies and vertices may meet |
+//! | `checks` | refusal of bad positions |
+//! | `build` | the tree that the options ask for |
+//! | `debug_view` | trees for drawing |
+//! | `list` | all bodies of a world |
 
 mod body;
 mod build;

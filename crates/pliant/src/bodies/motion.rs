@@ -1,4 +1,4 @@
-//! The motion of a body: where its vertices are going.
+//! Motion of a body: straight lines of its vertices from the present shape to another.
 
 use super::shape::{BodyShape, NewShape};
 use crate::error::ErrorKind;
@@ -9,34 +9,34 @@ use crate::mesh::Order;
 use crate::queries::Reach;
 use crate::threads::Executor;
 
-/// The motion of a body, if it has one.
+/// Motion of a body, if it has one.
 #[derive(Default)]
 pub(crate) struct Motion<S> {
-    /// None before the first; memory for the next when one has ended.
+    /// The present motion, or the memory of an ended one for the next. None before the first.
     way: Option<Box<Way<S>>>,
-    /// The last version of ways that were forgotten. Boxes of one motion must not pass for boxes of
-    /// another.
+    /// The last version of motions that were forgotten. Boxes of one motion must not pass for boxes
+    /// of another.
     forgotten: u64,
 }
 
-/// A motion from the current shape to another.
+/// Motion from the present shape to another.
 pub(crate) struct Way<S> {
-    /// The shape at the end. Its version is the number of this motion.
+    /// Shape at the end. Its version is the number of this motion.
     end: BodyShape<S>,
-    /// Counts motions, and shapes on the way.
+    /// Version counter of motions, and of shapes on the way.
     versions: u64,
     is_on: bool,
-    /// The shape on the way that was asked for last.
+    /// The last shape on the way that was asked for.
     partway: Option<Partway<S>>,
 }
 
-/// The shape in which what is looked at ends before the motion does.
+/// Shape on the way, for queries whose view ends before the motion does.
 struct Partway<S> {
-    /// In tree order.
+    /// Positions in tree order.
     points: Points<S>,
-    /// The versions of the shape and the motion that it lies between, and how far it is.
+    /// Key: the versions of shape and motion that it lies between, and how far it is.
     of: (u64, u64, Reach),
-    /// Its own number among motions.
+    /// Version of this shape among motions.
     version: u64,
 }
 
@@ -59,8 +59,10 @@ impl<S: Coordinate> Motion<S> {
         self.way.as_deref().filter(|way| way.is_on)
     }
 
-    /// Begins one, in place of any other, to a shape that is checked first, in a box that it must
-    /// not leave; or leaves all as it is and says what was wrong.
+    /// Checks a shape and begins a motion to it, in place of any other. On an error all stays as it
+    /// is.
+    ///
+    /// The shape must not leave the loose box, if there is one.
     pub(crate) fn begin(
         &mut self,
         from: &BodyShape<S>,
@@ -73,7 +75,7 @@ impl<S: Coordinate> Motion<S> {
             way.begin();
             return Ok(());
         }
-        // The copy is only of the right length; its positions are overwritten.
+        // The copy gives memory of the right length only; its positions are overwritten.
         let mut place = from.copy(end.order);
         place.take(end, loose, threads)?;
         let way = self.way.insert(Box::new(Way {
@@ -118,8 +120,10 @@ impl<S: Coordinate> Motion<S> {
         }
     }
 
-    /// Brings into tree order what is looked at of a motion, if there is one; the shape was brought
-    /// into it. Returns false if it was interrupted.
+    /// Brings the motion, as far as `reach`, into tree order, if there is one. Returns false if
+    /// interrupted.
+    ///
+    /// The shape `from` must be in tree order.
     pub(crate) fn bring_into_tree_order(
         &mut self,
         from: &BodyShape<S>,
@@ -145,12 +149,12 @@ impl<S: Coordinate> Way<S> {
         self.is_on = true;
     }
 
-    /// The shape at the end.
+    /// Shape at the end.
     pub(crate) fn end(&self) -> &BodyShape<S> {
         &self.end
     }
 
-    /// The other shape that boxes hold.
+    /// Second shape that boxes hold, besides the present one.
     pub(crate) fn held<'s>(
         &'s self,
         reach: Reach,
@@ -168,7 +172,7 @@ impl<S: Coordinate> Way<S> {
         }
     }
 
-    /// The positions that vertices are going to, for kinds that look along motions.
+    /// Positions that vertices are going to, for kinds that look along motions.
     pub(crate) fn going(&self, reach: Reach) -> &Points<S> {
         match (&self.partway, reach) {
             (Some(partway), Reach::To(_)) => &partway.points,
@@ -176,8 +180,9 @@ impl<S: Coordinate> Way<S> {
         }
     }
 
-    /// Makes the shape in which what is looked at ends before the motion does, unless it is there;
-    /// both ends are in tree order.
+    /// Makes the shape on the way at which `reach` ends, unless it is there.
+    ///
+    /// Both ends of the motion must be in tree order.
     fn make_partway(&mut self, from: &BodyShape<S>, reach: Reach) {
         let (t, is_rounded) = match reach {
             Reach::End => return,

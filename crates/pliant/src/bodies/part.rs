@@ -1,5 +1,4 @@
-//! A tree of a body, over a run of the triangles in tree order, and what hangs on it: boxes, and
-//! boxes of elements.
+//! Part of a body: a tree over a run of its triangles, with boxes of nodes and of elements.
 //!
 //! A body has one part, over all of its triangles, until its mesh is edited: see `body::edits`.
 
@@ -14,21 +13,21 @@ use crate::threads::Executor;
 use crate::tree::{BoxSet, BoxSource, Grown, Tree, Version};
 use std::ops::Range;
 
-/// A tree over a run of the triangles in tree order, with its boxes.
+/// Tree over a run of the triangles in tree order, with its boxes.
 pub(crate) struct Part {
     tree: Tree,
     triangles: Range<u32>,
-    /// The first vertex that its triangles are the first to use.
+    /// The lowest vertex that the part's triangles are the first to use.
     first_vertex: TreeVertex,
-    /// By the number of the set. They are made when a kind of query asks for them; but in a large
-    /// body the first, of the shape as it is, is there from the beginning.
+    /// Sets of boxes by number, made when a query asks for them. In a large body the set of the
+    /// present shape is there from the beginning.
     boxes: Vec<Option<BoxSet>>,
-    /// Boxes of elements, once somebody asks for those.
+    /// Boxes of elements, made when first needed.
     near_boxes: Option<Box<NearBoxes>>,
 }
 
 impl Part {
-    /// A part of a tree over these triangles, the first to use vertices from `first_vertex` on.
+    /// Part with a tree over these triangles, the first to use vertices from `first_vertex` on.
     pub(crate) fn new(tree: Tree, triangles: Range<u32>, first_vertex: TreeVertex) -> Self {
         let boxes = if triangles.len() > SMALL {
             vec![Some(BoxSet::new(&tree))]
@@ -48,18 +47,17 @@ impl Part {
         &self.tree
     }
 
-    /// The run of triangles in tree order that the tree is over.
+    /// Run of triangles in tree order that the tree is over.
     pub(crate) fn triangles(&self) -> Range<u32> {
         self.triangles.clone()
     }
 
-    /// The first vertex that its triangles are the first to use.
+    /// The lowest vertex that the part's triangles are the first to use.
     pub(crate) fn first_vertex(&self) -> TreeVertex {
         self.first_vertex
     }
 
-    /// The tree, a set of its boxes, which is made if it was never asked for, and the boxes of
-    /// elements.
+    /// Tree, a set of its boxes, and the boxes of elements. A set is made when first asked for.
     pub(crate) fn for_query(
         &mut self,
         number: BoxSetNumber,
@@ -86,7 +84,7 @@ impl Part {
         self.boxes.get(number)?.as_ref()
     }
 
-    /// Whether the tree holds the box of every node of a level, made of this version of the shape.
+    /// Whether each node of a cut at a level has a valid box of this version of the shape.
     pub(crate) fn valid_in_cut(&self, level: u32, version: Version) -> Vec<bool> {
         match self.boxes(OF_SHAPES) {
             Some(boxes) => self.tree.valid_in_cut(level, boxes, version),
@@ -94,8 +92,10 @@ impl Part {
         }
     }
 
-    /// Checks the structure of the tree, and that each box that claims to be valid holds what is
-    /// below it, now and at the end of a motion. A sentence says what is wrong.
+    /// Checks the structure of the tree, and that each valid box holds everything below it, now and
+    /// at the end of a motion.
+    ///
+    /// An error says in a sentence what is wrong.
     pub(crate) fn validate<S: Coordinate>(
         &self,
         order: &Order,
@@ -117,18 +117,17 @@ impl Part {
         Ok(())
     }
 
-    /// Copies the part; its boxes are made anew.
+    /// Copies the part. Its boxes are made anew.
     pub(crate) fn copy(&self) -> Self {
         Self::new(self.tree.clone(), self.triangles.clone(), self.first_vertex)
     }
 
-    /// All boxes are stale: some may have been left half made.
+    /// Makes all boxes stale: an interruption may have left some half made.
     pub(crate) fn forget_boxes(&mut self) {
         self.boxes.iter_mut().flatten().for_each(BoxSet::forget);
     }
 
-    /// Makes the boxes of elements, unless they hold these shapes. Returns false if it was
-    /// interrupted.
+    /// Makes the boxes of elements, unless they hold these shapes. Returns false if interrupted.
     pub(crate) fn make_near_boxes<S: Coordinate>(
         &mut self,
         which: Which,
@@ -145,8 +144,10 @@ impl Part {
         )
     }
 
-    /// Which of its triangles share a vertex, for a part that meets itself. A small part behind
-    /// others is not worth a table, which takes time by all vertices: corners are compared there.
+    /// Finds which triangles share a vertex, for the first part, which may meet itself.
+    ///
+    /// For a small part behind others that is not worth a table, whose cost is O(all vertices):
+    /// corners are compared there.
     pub(crate) fn know_neighbours(&mut self, order: &Order, executor: Executor) {
         if self.triangles.start == 0 {
             self.tree.know_neighbours(order, executor);

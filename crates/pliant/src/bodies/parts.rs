@@ -1,4 +1,4 @@
-//! The parts of a body: the first, which there always is, and the others.
+//! Parts of a body: the first, which always exists, and the others.
 
 use super::debug_view::TreeShape;
 use super::part::Part;
@@ -7,11 +7,11 @@ use crate::ids::TreeVertex;
 use crate::tree::Tree;
 use std::iter;
 
-/// The trees of a body, each over a run of its triangles in tree order.
+/// Trees of a body, each over a run of its triangles in tree order.
 pub(crate) struct Parts {
-    /// Over the triangles that were there when it was built.
+    /// Part with the triangles that were there when its tree was built.
     first: Part,
-    /// Over those that came since.
+    /// Parts with triangles that came since.
     others: Vec<Part>,
 }
 
@@ -24,7 +24,7 @@ impl Parts {
         }
     }
 
-    /// Copies the parts; their boxes are made anew.
+    /// Copies the parts. Their boxes are made anew.
     pub(crate) fn copy(&self) -> Self {
         Self {
             first: self.first.copy(),
@@ -51,7 +51,7 @@ impl Parts {
         }
     }
 
-    /// Two of them, the lower number first.
+    /// Two different parts, mutable, the lower number first.
     pub(crate) fn two_mut(&mut self, [low, high]: [usize; 2]) -> [&mut Part; 2] {
         let (before, rest) = self.others.split_at_mut(high - 1);
         let low = match low.checked_sub(1) {
@@ -61,7 +61,7 @@ impl Parts {
         [low, &mut rest[0]]
     }
 
-    /// The number of triangles in the first part.
+    /// Number of triangles in the first part.
     pub(crate) fn in_first(&self) -> usize {
         self.first.triangles().len()
     }
@@ -71,17 +71,17 @@ impl Parts {
         self.first.tree().knows_neighbours()
     }
 
-    /// Puts a part behind all others.
+    /// Appends a part behind all others.
     pub(crate) fn push(&mut self, part: Part) {
         self.others.push(part);
     }
 
-    /// Takes away the last part behind the first, if it has at most `most` triangles.
+    /// Removes and returns the last part, if it is not the first and has at most `most` triangles.
     pub(crate) fn pop(&mut self, most: usize) -> Option<Part> {
         self.others.pop_if(|last| last.triangles().len() <= most)
     }
 
-    /// The trees in numbers, all together.
+    /// Depth, nodes and leaves of all trees together.
     pub(crate) fn shape(&self) -> TreeShape {
         let trees = || self.all().map(Part::tree);
         TreeShape {

@@ -1,13 +1,11 @@
-//! A shape of a body: as the caller orders vertices, in tree order, or both.
+//! Shape of a body: positions in the caller's order, in tree order, or both.
 //!
-//! Two ways lead to a new shape, and either leaves the old one as it is if something is wrong with
-//! the new. A body that nobody looked at since its last shape is *copied* while it is checked,
-//! which is one pass as fast as memory. A body that was looked at will be looked at again: it is
-//! only checked, and then *taken straight into tree order*, without a copy between. But where there
-//! are several threads a small one is copied as well: shapes come one after the other, and threads
-//! bring them into order side by side.
-//!
-//! So a new shape is staged first, which changes nothing that can be seen, and then committed.
+//! A new shape is staged first, which changes nothing that can be seen, and then committed; an
+//! error leaves the old shape. A body that no query looked at since its last shape is *copied*
+//! while it is checked, one pass as fast as memory. A body that was looked at will be looked at
+//! again: it is checked, and then *gathered straight into tree order*, without a copy. With several
+//! threads a small body is copied as well: shapes come one by one, and threads bring them into
+//! order side by side.
 
 use super::checks::{all_inside, none_is_lost, out_of_range};
 use crate::error::ErrorKind;
@@ -19,65 +17,68 @@ use crate::mesh::{Moved, Order};
 use crate::threads::{Executor, Grain};
 use std::borrow::Cow;
 
-/// A body of at most this many vertices is copied while its shape is taken over, where there are
-/// several threads: see above.
+/// A shape of at most this many vertices is copied while it is taken over, where there are several
+/// threads.
 const COPIED: usize = 4 * Grain::POINTS.items;
 
-/// A body of at most this many triangles, or vertices, takes memory when somebody looks at it:
-/// among many small ones most are never looked at. Larger ones take it when they are added, because
-/// a query may not go on for long before it asks whether to stop.
+/// The most triangles, or vertices, of a body whose memory is reserved only when a query looks at
+/// it.
+///
+/// Among many small bodies most are never looked at. Larger ones reserve it when they are added,
+/// because a query may not run long without a look at the interruption.
 pub(crate) const SMALL: usize = 1 << 8;
 
-/// A shape of a body: the one that it has now, or the one at the end of a motion.
+/// Shape of a body: the present one, or the one at the end of a motion.
 pub(crate) struct BodyShape<S> {
     len: usize,
-    /// The shape, if it is in the caller's order. Nothing in a body that was looked at in every
-    /// shape so far.
+    /// Positions in the caller's order, if the shape is in it. Empty in a body that was looked at
+    /// in every shape so far.
     callers: Vec<[S; 3]>,
-    /// Where the next shape is copied to, so that a bad one never replaces a good one; nothing
+    /// Memory to which the next shape is copied, so that a bad one never replaces a good one. Empty
     /// until one is copied.
     spare: Vec<[S; 3]>,
-    /// The shape, if it is in tree order; nothing as long as a small body was not looked at.
+    /// Positions in tree order, if the shape is in it. Empty as long as a small body was not looked
+    /// at.
     trees: Points<S>,
     order: InOrder,
-    /// The extent of the vertices that triangles use.
+    /// Bounds of the vertices that triangles use.
     bounds: Bounds<S>,
-    /// Counts changes of shape, and of the origin that boxes are relative to. Boxes of other
-    /// versions are stale.
+    /// Version: counts changes of shape, and of the origin that boxes are relative to. Boxes of
+    /// other versions are stale.
     version: u64,
 }
 
-/// A new shape for a body, before it is checked.
+/// New shape for a body, before it is checked.
 pub(crate) struct NewShape<'n, S> {
-    /// As the caller orders vertices; the rows of empty vertices are those of others.
+    /// Positions in the caller's order. Rows of empty vertices repeat other vertices.
     pub(crate) positions: &'n [[S; 3]],
     pub(crate) order: &'n Order,
     /// Whether triangles use all vertices that are not empty.
     pub(crate) are_all_used: bool,
 }
 
-/// The order in which a shape is there.
+/// Order in which a shape is stored, and whether a query looked at it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum InOrder {
-    /// As the caller orders vertices: nobody looked at it since it came.
+    /// Stored in the caller's order: no query looked at it since it came.
     Callers,
-    /// In tree order, into which it was taken at once; nobody looked at it yet.
+    /// Stored in tree order, into which it was gathered at once. No query looked at it yet.
     TreesUnseen,
-    /// In tree order; a query looked at it.
+    /// Stored in tree order; a query looked at it.
     Trees,
-    /// In both; a query looked at it.
+    /// Stored in both orders; a query looked at it.
     Both,
 }
 
-/// A new shape that was checked and waits to be committed.
+/// New shape that was checked and waits to be committed.
 pub(crate) struct Staged<S> {
-    /// Of all its vertices, used or not.
+    /// Bounds of all its vertices, used or not.
     bounds: Bounds<S>,
     is_copied: bool,
 }
 
 impl<S: Coordinate> BodyShape<S> {
-    /// The first shape of a body, as the caller orders vertices; its mesh is in this order.
+    /// First shape of a body, in the caller's order. Its mesh is in `order`.
     pub(crate) fn new(positions: &[[S; 3]], order: &Order) -> Self {
         let used = order.vertex_order()[..order.used_vertices()].iter();
         let bounds = bounds_of(used.map(|&vertex| positions[vertex as usize]));
@@ -109,22 +110,22 @@ impl<S: Coordinate> BodyShape<S> {
         self.version
     }
 
-    /// Gives the shape another version: boxes that were made so far are stale.
+    /// Sets the version, which makes earlier boxes stale.
     pub(crate) fn set_version(&mut self, version: u64) {
         self.version = version;
     }
 
-    /// Gives the shape the next version.
+    /// Begins the next version, which makes earlier boxes stale.
     pub(crate) fn begin_version(&mut self) {
         self.version += 1;
     }
 
-    /// The shape as everything that makes boxes sees it; it was brought into tree order.
+    /// View of the shape for everything that makes boxes. The shape must be in tree order.
     pub(crate) fn view<'s>(&'s self, order: &'s Order, origin: Origin) -> Shape<'s, S> {
         self.view_of(self.in_tree_order(), order, origin)
     }
 
-    /// The shape as everything that makes boxes sees it, with its positions in tree order.
+    /// View of the shape for everything that makes boxes, with its positions in tree order.
     pub(crate) fn view_of<'s>(
         &self,
         positions: &'s Points<S>,
@@ -139,14 +140,14 @@ impl<S: Coordinate> BodyShape<S> {
         }
     }
 
-    /// The exact extent of the vertices that triangles use.
+    /// Exact bounds of the vertices that triangles use.
     #[inline]
     pub(crate) fn bounds(&self) -> Bounds<S> {
         self.bounds
     }
 
-    /// Checks a new shape and copies it aside, if that is the way it will go; nothing that can be seen
-    /// changes.
+    /// Checks a new shape, and copies it aside if it is going to be copied. The shape must not leave
+    /// the loose box, if there is one. Nothing that can be seen changes. O(n).
     pub(crate) fn check(
         &mut self,
         new: &NewShape<S>,
@@ -162,7 +163,7 @@ impl<S: Coordinate> BodyShape<S> {
             });
         }
         let Some(staged) = self.stage(instructions, executor, positions) else {
-            // Which vertex it was is found out only if there was one.
+            // Which vertex it was is found only if there was one.
             return Err(out_of_range(positions));
         };
         let all = staged.bounds;
@@ -203,13 +204,13 @@ impl<S: Coordinate> BodyShape<S> {
         Ok(())
     }
 
-    /// Takes a vertex into the bounds, which no triangle used so far.
+    /// Extends the bounds by a vertex that no triangle used so far.
     pub(crate) fn include(&mut self, vertex: TreeVertex, order: &Order) {
         self.bounds.include(self.get(vertex, order.vertex_order()));
     }
 
-    /// Checks a new shape, as long as the old, and copies it aside if that is the way it will go;
-    /// `None` if a coordinate is out of range.
+    /// Checks a new shape, as long as the old, and copies it aside if copying is its way. `None` if
+    /// a coordinate is out of range.
     fn stage(
         &mut self,
         instructions: Instructions,
@@ -245,7 +246,7 @@ impl<S: Coordinate> BodyShape<S> {
         Some(Staged { bounds, is_copied })
     }
 
-    /// The new shape that was staged is that of now.
+    /// Makes the staged shape the present one.
     fn commit(
         &mut self,
         staged: &Staged<S>,
@@ -263,9 +264,10 @@ impl<S: Coordinate> BodyShape<S> {
         }
     }
 
-    /// Brings the shape into tree order, which all that makes boxes and decides candidates needs,
-    /// because a query is going to look at it. Returns false, and nothing has changed, if it was
-    /// interrupted.
+    /// Brings the shape into tree order, which boxes and decisions need, because a query is going
+    /// to look at it. O(n).
+    ///
+    /// Returns false, with nothing changed, if interrupted.
     pub(crate) fn bring_into_tree_order(
         &mut self,
         (instructions, executor): (Instructions, Executor),
@@ -293,14 +295,14 @@ impl<S: Coordinate> BodyShape<S> {
         true
     }
 
-    /// In tree order; was brought into it.
+    /// Positions in tree order. The shape must be in it.
     #[inline]
     pub(crate) fn in_tree_order(&self) -> &Points<S> {
         debug_assert_ne!(self.order, InOrder::Callers);
         &self.trees
     }
 
-    /// As the caller orders vertices.
+    /// Positions in the caller's order. O(n) if only tree order is stored.
     pub(crate) fn in_callers_order(&self, order: &Order) -> Cow<'_, [[S; 3]]> {
         if matches!(self.order, InOrder::Callers | InOrder::Both) {
             return Cow::Borrowed(&self.callers);
@@ -315,14 +317,14 @@ impl<S: Coordinate> BodyShape<S> {
         Cow::Owned(callers)
     }
 
-    /// All in tree order, whether they were brought into it or not.
+    /// Positions in tree order, whether or not the shape is in it. O(n).
     pub(crate) fn sorted(&self, order: &Order) -> Points<S> {
         let order = order.vertex_order();
         let vertices = (0..order.len() as u32).map(TreeVertex);
         Points::of(vertices.map(|vertex| self.get(vertex, order)))
     }
 
-    /// One of them.
+    /// Position of one vertex, in whatever order the shape is.
     #[inline]
     pub(crate) fn get(&self, vertex: TreeVertex, order: &[u32]) -> [S; 3] {
         if self.order == InOrder::Callers {
@@ -332,7 +334,7 @@ impl<S: Coordinate> BodyShape<S> {
         }
     }
 
-    /// Vertices come behind all others, in either order.
+    /// Appends vertices behind all others, in either order.
     pub(crate) fn push(&mut self, new: &[[S; 3]]) {
         if matches!(self.order, InOrder::Callers | InOrder::Both) {
             self.callers.extend_from_slice(new);
@@ -343,8 +345,10 @@ impl<S: Coordinate> BodyShape<S> {
         self.len += new.len();
     }
 
-    /// Places a vertex that was empty. One that went and came within one edit still has triangles
-    /// that were taken out, whose boxes were made: these are stale then.
+    /// Places a vertex that was empty.
+    ///
+    /// A vertex that went and came within one edit still has removed triangles, whose boxes were
+    /// made. These become stale.
     pub(crate) fn place(
         &mut self,
         vertex: CallerVertex,
@@ -361,7 +365,7 @@ impl<S: Coordinate> BodyShape<S> {
         }
     }
 
-    /// Numbers in tree order are others.
+    /// Follows a change of numbers in tree order.
     pub(crate) fn follow(&mut self, moved: &Moved) {
         if self.order == InOrder::Callers {
             return;
@@ -376,7 +380,7 @@ impl<S: Coordinate> BodyShape<S> {
         }
     }
 
-    /// A vertex has a number at the end of tree order too: what is at the other stays where it is
+    /// Gives a vertex another number at the end of tree order. The position at its old number stays
     /// until the next shape.
     pub(crate) fn follow_to_the_end(&mut self, slot: TreeVertex) {
         if self.order != InOrder::Callers {
@@ -399,7 +403,7 @@ fn bounds_of<S: Real>(positions: impl Iterator<Item = [S; 3]>) -> Bounds<S> {
     bounds
 }
 
-/// Takes the points that `order` names.
+/// Gathers the points that `order` names, with several threads if there are many points.
 fn gather_all<S: Coordinate>(
     instructions: Instructions,
     executor: Executor,

@@ -1,13 +1,11 @@
-//! A tree of bodies: eight boxes a node, descended once for every body.
+//! Bounding volume hierarchy over bodies: eight boxes a node, descended once for every body.
 //!
-//! The tree is complete: bodies in some order, eight in a row to a leaf, eight leaves to a node, and so on up to one root. So
-//! it needs no links, and any order of the bodies makes it right; a good one makes it fast. All boxes are refitted before each
-//! pass. The order comes from cuts in half across the longest side of the boxes' centres, and is kept while bodies move, until
-//! a pass over all of them tests twice as many nodes as the first pass did.
-//!
-//! Memory is linear in the bodies, whatever overlaps, and the first pairs are known at once: a body's row is the bodies after it
-//! whose boxes overlap its own, in order. Not in the paper, which sweeps and prunes; there a list of all overlapping pairs is kept,
-//! and bodies that move fast are sorted past most others on every axis.
+//! The tree is complete, with eight bodies in a row to a leaf and eight leaves to a node, so it
+//! needs no links. Any order of the bodies makes it right; a good one makes it fast. All boxes are
+//! refitted before each pass, and the order is kept until a pass tests twice as many nodes as its
+//! first. Memory is O(n), whatever overlaps, and the first pairs are known at once. Differs from
+//! the paper, which sweeps and prunes: there all overlapping pairs are kept, and fast bodies are
+//! sorted past most others on every axis.
 
 use super::overlap::Overlap;
 use crate::geometry::{Aabb, Bounds};
@@ -15,25 +13,28 @@ use crate::held::{self, held};
 use crate::ids::Rank;
 use crate::kernels::{BoxLanes, Instructions, dispatch};
 
-/// Boxes a node.
+/// Boxes of a node.
 const WIDTH: usize = 8;
 
+/// Complete tree of the bodies' boxes.
 #[derive(Debug, Default)]
 pub(super) struct BodyTree {
-    /// All bodies, as the leaves hold them.
+    /// All bodies, in the order of the leaves.
     order: Vec<Rank>,
-    /// From the leaves to the root: the nodes of each level.
+    /// Nodes of each level, from the leaves to the root.
     levels: Vec<Vec<BoxLanes<WIDTH>>>,
-    /// Nodes tested since the boxes were refitted; and in the first whole pass after the bodies were ordered.
+    /// Nodes tested since the last refit, and in the first whole pass after the bodies were
+    /// ordered.
     tested: usize,
     tested_at_first: Option<usize>,
-    /// Scratch: nodes still to be tested, by level and number; and the centres of all boxes.
+    /// Scratch: nodes still to be tested, by level and number, and the centres of all boxes.
     open: Vec<(usize, usize)>,
     centres: Vec<[f32; 3]>,
 }
 
 impl BodyTree {
-    /// Takes the boxes of now, before the rows of a pass are asked for.
+    /// Refits all boxes, before the rows of a pass are asked for, and orders the bodies anew if the
+    /// order is worn. O(n), or O(n log n) with a new order.
     pub(super) fn refit(&mut self, boxes: &[Aabb]) {
         let count = boxes.len();
         let known = self.order.len();
@@ -49,7 +50,7 @@ impl BodyTree {
         }
         self.tested = 0;
 
-        // One level more for every eight times as many bodies.
+        // One more level for every factor of eight in the number of bodies.
         let depth = count
             .max(2)
             .next_power_of_two()
@@ -66,7 +67,7 @@ impl BodyTree {
         }
     }
 
-    /// Appends the pairs of a body and those after it whose boxes overlap its own, in order.
+    /// Appends the row of a body: pairs with later bodies whose boxes overlap its own, in order.
     pub(super) fn row(
         &mut self,
         instructions: Instructions,
@@ -83,7 +84,7 @@ impl BodyTree {
         dispatch!(instructions, _i => {
             while let Some((level, node)) = open.pop() {
                 self.tested += 1;
-                // Of a level that has a node there is every one up to the last.
+                // A level is complete up to its last node, so a missing node has no boxes.
                 let Some(boxes) = levels[level].get(node) else { continue };
                 let mut overlaps = boxes.overlaps(its_box);
                 while overlaps != 0 {
@@ -100,18 +101,18 @@ impl BodyTree {
         pairs[first..].sort_unstable();
     }
 
-    /// The nodes that the last pass tested.
+    /// Number of nodes that the last pass tested.
     #[cfg(test)]
     pub(super) fn tested(&self) -> usize {
         self.tested
     }
 
-    /// All bodies had their row.
+    /// Ends a whole pass: all bodies had their row.
     pub(super) fn end_of_pass(&mut self) {
         self.tested_at_first.get_or_insert(self.tested);
     }
 
-    /// Orders the bodies such that those of a node are near each other.
+    /// Orders the bodies so that bodies of one node are near each other. O(n log n).
     fn put_in_order(&mut self, boxes: &[Aabb]) {
         self.centres.clear();
         let halves = |x: &Aabb| std::array::from_fn(|axis| 0.5 * x.lo[axis] + 0.5 * x.hi[axis]);
@@ -124,7 +125,7 @@ impl BodyTree {
     }
 }
 
-/// Nodes of so many boxes as there is room for.
+/// Packs boxes side by side into nodes.
 fn side_by_side<T>(of: &[T], its_box: impl Fn(&T) -> Aabb, nodes: &mut Vec<BoxLanes<WIDTH>>) {
     nodes.clear();
     nodes.extend(of.chunks(WIDTH).map(|children| {
@@ -136,7 +137,8 @@ fn side_by_side<T>(of: &[T], its_box: impl Fn(&T) -> Aabb, nodes: &mut Vec<BoxLa
     }));
 }
 
-/// Orders the bodies of a node that has room for so many, and those of the nodes below it.
+/// Orders the bodies of a node with room for `capacity` bodies, and recursively of the nodes below
+/// it.
 fn cut(bodies: &mut [Rank], capacity: usize, centres: &[[f32; 3]]) {
     if capacity > WIDTH {
         cut_in_halves(bodies, capacity / WIDTH, centres);
@@ -146,7 +148,9 @@ fn cut(bodies: &mut [Rank], capacity: usize, centres: &[[f32; 3]]) {
     }
 }
 
-/// Orders bodies such that each child, which has room for so many, gets what is near each other.
+/// Orders bodies so that each child, with room for `child` bodies, gets bodies near each other.
+///
+/// Halves are cut across the longest side of the box of all centres.
 fn cut_in_halves(bodies: &mut [Rank], child: usize, centres: &[[f32; 3]]) {
     let children = bodies.len().div_ceil(child);
     if children < 2 {
@@ -161,7 +165,8 @@ fn cut_in_halves(bodies: &mut [Rank], child: usize, centres: &[[f32; 3]]) {
     let axis = longest.expect("three axes");
     let half = children / 2 * child;
     let along = |body: &Rank| centres[body.index()][axis];
-    // Equal centres by their rank: the order does not depend on how one is selected.
+    // Bodies with equal centres go by rank, so that the order does not depend on how the median is
+    // selected.
     bodies.select_nth_unstable_by(half, |a, b| {
         along(a).total_cmp(&along(b)).then_with(|| a.cmp(b))
     });

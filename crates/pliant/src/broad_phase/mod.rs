@@ -1,8 +1,10 @@
-//! From the boxes of all bodies to the pairs that overlap (paper, 3.4).
+//! Broad phase: from the boxes of all bodies to the pairs of bodies whose boxes overlap (paper,
+//! 3.4).
 //!
-//! Bodies are numbered by their rank, which is the order of their ids. A body's box is its exact one, or a loose one that holds for every pose and
-//! stands still. Pairs come in order, the smaller rank first: row by row, a row being a body and those after it, so that whoever asks
-//! holds as many at once as it likes; or, from sweep and prune, as the list that it keeps.
+//! Bodies are numbered by rank, the order of their ids. A body's box is its exact one, or a loose
+//! one that stands still and holds every pose. Pairs come in order, the smaller rank first. They
+//! come row by row, so that callers hold as many at once as they like; sweep and prune returns its
+//! whole list. A row is a body with the bodies after it.
 
 mod body_tree;
 mod brute_force;
@@ -19,23 +21,25 @@ pub(crate) use overlap::Overlap;
 use std::ops::ControlFlow;
 use sweep_and_prune::{SweepAndPrune, Unfinished};
 
-/// Up to so many bodies, comparing all pairs is as good as anything; "approximately 100" (paper, 3.4).
+/// The most bodies for which comparing all pairs is as good as any other way; "approximately 100"
+/// (paper, 3.4).
 const MOST_FOR_BRUTE_FORCE: usize = 100;
-/// The most pairs a body that sweep and prune keeps: so many bodies in one place are left to the tree.
+/// The most pairs per body that sweep and prune keeps. Beyond, with many bodies in one place, the
+/// tree takes over.
 const MOST_PAIRS_A_BODY: usize = 16;
 
-/// The broad phase of a world, with what it keeps between passes.
+/// Broad phase of a world, and its memory between passes.
 #[derive(Debug)]
 pub(crate) struct BroadPhase {
     rule: crate::BroadPhase,
     way: Way,
     sweep: SweepAndPrune,
     tree: BodyTree,
-    /// The body whose row is next.
+    /// Body whose row is next.
     next: Rank,
 }
 
-/// How a pass finds its pairs.
+/// Algorithm by which a pass finds its pairs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Way {
     BruteForce,
@@ -54,8 +58,11 @@ impl BroadPhase {
         }
     }
 
-    /// Begins a pass over the boxes of all bodies, by their ranks. Bodies are those of the last pass, but for removals told by
-    /// [`BroadPhase::remove`], then added ones at the end. Interrupted, it begins anew the next time.
+    /// Begins a pass over the boxes of all bodies, by rank. Interrupted, it begins anew the next
+    /// time.
+    ///
+    /// The bodies are the last pass's without the ones removed by [`BroadPhase::remove`], and then
+    /// added bodies at the end.
     pub(crate) fn begin(&mut self, boxes: &[Aabb], interrupt: &Interrupt) {
         self.next = Rank(0);
         self.way = match self.rule {
@@ -79,8 +86,9 @@ impl BroadPhase {
         }
     }
 
-    /// Appends the next pairs of the pass, in order: all of one body at least. Returns false if there are no more. Interrupted, it says
-    /// that there are.
+    /// Appends the next pairs of the pass, in order, and returns whether more may follow.
+    ///
+    /// A call appends all pairs of at least one body. After an interruption it returns true.
     pub(crate) fn next(
         &mut self,
         instructions: Instructions,
@@ -107,7 +115,7 @@ impl BroadPhase {
         true
     }
 
-    /// The body of a rank goes, and those after it are one rank higher.
+    /// Removes the body of a rank. The ranks of later bodies move down by one.
     pub(crate) fn remove(&mut self, rank: Rank) {
         self.sweep.remove(rank);
     }
@@ -130,7 +138,7 @@ mod tests {
             (self.0 >> 33) as u32 % range
         }
 
-        /// On a lattice, so that many faces are equal.
+        /// A cube on a lattice, so that many faces are equal.
         fn cube(&mut self, range: u32) -> Aabb {
             let lo = [(); 3].map(|()| self.below(range) as f32);
             let hi = lo.map(|x| x + self.below(3) as f32);
@@ -157,7 +165,7 @@ mod tests {
         pairs
     }
 
-    /// What a pass is to find.
+    /// Expected pairs of a pass, by comparing all boxes.
     fn expected(boxes: &[Aabb]) -> Vec<Overlap> {
         let ranks = || (0..boxes.len() as u32).map(Rank);
         let later = |a: Rank| ranks().filter(move |&b| b > a).map(move |b| [a, b]);
@@ -197,7 +205,7 @@ mod tests {
                         }
                     }
                     4 => boxes.extend((0..random.below(99)).map(|_| random.cube(range))),
-                    // Several go between two passes, one just added perhaps among them.
+                    // Several go between two passes, perhaps one that was just added.
                     _ => {
                         boxes.push(random.cube(range));
                         for _ in 0..random.below(99) {

@@ -1,4 +1,4 @@
-//! What a broad phase finds.
+//! Overlap: a pair that a broad phase finds.
 
 use crate::ids::Rank;
 

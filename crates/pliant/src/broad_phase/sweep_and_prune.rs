@@ -1,20 +1,12 @@
 //! Incremental sweep and prune (Cohen, Lin, Manocha, Ponamgi 1995; paper, 3.4).
 //!
-//! The ends of all boxes are kept in three lists, one an axis, each sorted from query to query by insertion: bodies that move
-//! a little exchange few neighbours. An exchange says what begins or ends:
-//!
-//! ```text
-//! a lower end moves below an upper end:  the intervals begin to overlap; if the boxes do, note the pair as new
-//! an upper end moves below a lower end:  the intervals cease to overlap; note the pair as gone
-//! ```
-//!
-//! Two ends are exchanged at most once in a sort, and only towards their final order, so a pair noted as gone is truly apart
-//! and a pair noted as new truly overlaps, whatever the order of the axes. Of equal values the lower end comes first: touching
-//! is overlapping.
-//!
-//! Differs from the original: instead of three bits for every pair of bodies, only the overlapping pairs are kept, as a
-//! sorted list; memory is O(n + pairs). And when a sort exchanges more than a budget (bodies jumped), the lists are sorted
-//! from scratch and swept once along the axis with the fewest overlaps.
+//! The ends of all boxes are kept in three lists, one an axis, sorted by insertion: bodies that
+//! move a little exchange few neighbours. An exchange of two ends says that a pair may begin or
+//! cease to overlap ([`SweepAndPrune::sort_by_exchanges`]). Of equal values the lower end comes
+//! first: touching is overlapping. Differs from the original: only overlapping pairs are kept, as a
+//! sorted list, in O(n + pairs) memory, instead of three bits for every pair. When bodies jump and
+//! exchanges exceed a budget, the lists are sorted from scratch and swept once along the axis with
+//! the fewest overlaps.
 
 use super::overlap::Overlap;
 use crate::geometry::Aabb;
@@ -24,15 +16,16 @@ use crate::threads::Interrupt;
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
-/// Exchanges per end before sorting from scratch is cheaper. An exchange is a few nanoseconds, a place in a full sort about
-/// log2(n) comparisons.
+/// Exchanges per end after which sorting from scratch is cheaper.
+///
+/// An exchange takes a few nanoseconds. In a full sort an end takes about log2(n) comparisons.
 const EXCHANGES_PER_END: usize = 16;
 
-/// One end of one interval.
+/// One end of an interval.
 #[derive(Clone, Copy, Debug)]
 struct End {
     value: f32,
-    /// The body's rank, doubled; plus one for the upper end.
+    /// The body's rank, doubled, plus one for the upper end.
     body_and_side: u32,
 }
 
@@ -45,7 +38,8 @@ impl End {
         self.body_and_side & 1 == 1
     }
 
-    /// By value; of equal values lower ends first. Values are never NaN.
+    /// Whether this end comes before another: by value, and lower ends first of equal values.
+    /// Values are never NaN.
     #[inline]
     fn belongs_before(self, other: Self) -> bool {
         self.value < other.value
@@ -59,41 +53,44 @@ impl End {
     }
 }
 
-/// Why a pass over the lists did not come to its end.
+/// Reason why a pass over the lists did not come to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unfinished {
     Interrupted,
-    /// There are more pairs than were to be kept.
+    /// There are more pairs than may be kept.
     TooMany,
 }
 
-/// The lists and the pairs, as the last query left them.
+/// Sorted ends and overlapping pairs, as the last query left them.
 #[derive(Debug, Default)]
 pub(super) struct SweepAndPrune {
     axes: [Vec<End>; 3],
-    /// Sorted, without duplicates.
+    /// Overlapping pairs, sorted, without duplicates.
     pub(super) pairs: Vec<Overlap>,
-    /// For the bodies of now, by rank: the rank that each has in the lists, or `NEW`.
+    /// Rank that each present body has in the lists, or `NEW`, by its present rank.
     listed_as: Vec<Rank>,
-    /// Whether any are gone that the lists still hold.
+    /// Whether the lists still hold bodies that are gone.
     some_are_gone: bool,
-    // Scratch: pairs that began and ceased to overlap, the next list of pairs, and intervals open in a sweep.
+    // Scratch: pairs that began and ceased to overlap, the next list of pairs, and intervals open
+    // in a sweep.
     new: Vec<Overlap>,
     gone: Vec<Overlap>,
     next: Vec<Overlap>,
     open: Vec<Rank>,
 }
 
-/// The rank in the lists of a body that is not in them.
+/// Rank in the lists of a body that is not in them.
 const NEW: Rank = Rank(u32::MAX);
 
-/// So many ends are sorted, or swept, before it is asked whether the query was interrupted.
+/// Number of ends that are sorted or swept between two looks at the interruption.
 const UNINTERRUPTED: usize = 256;
 
 impl SweepAndPrune {
-    /// Brings `pairs`, of which there are to be at most so many, up to date: see
-    /// [`super::BroadPhase::begin`]. If that does not come to an end, it breaks, and can not be
-    /// used again.
+    /// Updates `pairs` for new boxes: see [`super::BroadPhase::begin`]. `most` is the largest
+    /// number of pairs to be kept.
+    ///
+    /// O(n + exchanges) where bodies move a little, O(n log n) and a sweep where they jump. After a
+    /// break it cannot be used again.
     pub(super) fn overlapping(
         &mut self,
         boxes: &[Aabb],
@@ -113,7 +110,8 @@ impl SweepAndPrune {
                     value.lo[axis]
                 };
             }
-            // New bodies stand behind all others, overlapping nothing, and are sorted in like any that moved.
+            // New bodies stand behind all others, overlapping nothing, and are sorted in like
+            // bodies that moved.
             for body in (0..boxes.len()).filter(|&body| self.listed_as[body] == NEW) {
                 let body_and_side = 2 * body as u32;
                 ends.push(End {
@@ -139,16 +137,17 @@ impl SweepAndPrune {
         ControlFlow::Continue(())
     }
 
-    /// See [`super::BroadPhase::remove`]. The lists are put right by the next query, in one pass for all that are gone.
+    /// Removes a body: see [`super::BroadPhase::remove`]. The next query repairs the lists, in one
+    /// pass for all removed bodies.
     pub(super) fn remove(&mut self, rank: Rank) {
-        // One that was added since the last query is in no list yet.
+        // A body added since the last query is in no list yet.
         if rank.index() < self.listed_as.len() {
             self.listed_as.remove(rank.index());
             self.some_are_gone = true;
         }
     }
 
-    /// Takes bodies that are gone out of the lists, and gives the others their ranks of now.
+    /// Takes removed bodies out of the lists, and gives the others their present ranks.
     fn forget_the_gone(&mut self) {
         let listed = self.axes[0].len() / 2;
         let mut ranks = vec![NEW; listed];
@@ -171,7 +170,19 @@ impl SweepAndPrune {
         });
     }
 
-    /// Returns false if the budget did not suffice; pairs and order are then to be made anew.
+    /// Sorts the lists by insertion and updates the pairs. Returns false if the budget does not
+    /// suffice; pairs and order must then be made anew.
+    ///
+    /// Each exchange of a lower with an upper end is a change of overlap on one axis:
+    ///
+    /// - A lower end moves below an upper end: the intervals begin to overlap. If the boxes do, the
+    ///   pair is noted as new.
+    /// - An upper end moves below a lower end: the intervals cease to overlap. The pair is noted as
+    ///   gone.
+    ///
+    /// Two ends are exchanged at most once in a sort, and only towards their final order. So a pair
+    /// noted as gone is truly apart and a pair noted as new truly overlaps, whatever the order of
+    /// the axes.
     fn sort_by_exchanges(
         &mut self,
         boxes: &[Aabb],
@@ -221,7 +232,7 @@ impl SweepAndPrune {
         ControlFlow::Continue(true)
     }
 
-    /// pairs = (pairs without the gone) with the new.
+    /// Updates the pairs: removes the ones noted as gone, and adds the ones noted as new.
     fn merge(&mut self) {
         if self.new.is_empty() && self.gone.is_empty() {
             return;
@@ -248,8 +259,10 @@ impl SweepAndPrune {
         self.pairs.clone_from(next);
     }
 
-    /// Room for all that a later query can note if it finds as many pairs as this one, so that repeated motion allocates
-    /// nothing: a pair begins and ceases to overlap at most once on each axis.
+    /// Reserves room for all that a later query can note if it finds as many pairs, so that
+    /// repeated motion allocates nothing.
+    ///
+    /// A pair begins and ceases to overlap at most once on each axis.
     fn reserve(&mut self, bodies: usize) {
         for list in [&mut self.new, &mut self.gone, &mut self.next] {
             list.clear();
@@ -259,7 +272,8 @@ impl SweepAndPrune {
         self.open.reserve(bodies);
     }
 
-    /// Sorts all three lists and finds the pairs along the axis on which the fewest intervals overlap.
+    /// Sorts all three lists, and sweeps along the axis on which the fewest intervals overlap. O(n
+    /// log n) and the sweep.
     fn sort_from_scratch(
         &mut self,
         boxes: &[Aabb],
@@ -305,7 +319,7 @@ impl SweepAndPrune {
     }
 }
 
-/// How many pairs of intervals overlap in a sorted list of ends.
+/// Number of pairs of intervals that overlap in a sorted list of ends.
 fn interval_overlaps(ends: &[End]) -> usize {
     let (mut open, mut overlaps) = (0, 0);
     for end in ends {
@@ -327,7 +341,7 @@ mod tests {
     use super::super::brute_force;
     use super::*;
 
-    /// More pairs than there are.
+    /// A limit above any number of pairs here.
     const MANY: usize = 1 << 20;
 
     struct Lcg(u64);
@@ -341,7 +355,7 @@ mod tests {
             (self.0 >> 33) as u32 % range
         }
 
-        /// On a lattice, so that many ends are equal.
+        /// A cube on a lattice, so that many ends are equal.
         fn cube(&mut self, range: u32) -> Aabb {
             let lo = [(); 3].map(|()| self.below(range) as f32);
             let hi = lo.map(|x| x + self.below(3) as f32);
@@ -385,7 +399,7 @@ mod tests {
                             .map(|_| random.cube(range))
                             .collect::<Vec<_>>(),
                     ),
-                    // Several go between two queries, one just added perhaps among them.
+                    // Several go between two queries, perhaps one that was just added.
                     _ => {
                         boxes.push(random.cube(range));
                         for _ in 0..random.below(4) {
@@ -445,7 +459,8 @@ mod tests {
             let boxes = row(step as f32 * 0.05);
             check(&mut sweep, &boxes);
         }
-        // Each body passes few others: a hundred bodies' worth of exchanges would be enough for all steps.
+        // Each body passes few others: exchanges for a hundred bodies would be enough for all
+        // steps.
         for (axis, ends) in sweep.axes.iter_mut().enumerate() {
             for end in ends {
                 let value = &row(0.6)[end.body().index()];
@@ -463,7 +478,7 @@ mod tests {
             "sorted within the budget"
         );
         assert!(budget < 1000, "and not for nothing");
-        // The same jump of all bodies to the other end is beyond any budget.
+        // The jump of all bodies to the other end is beyond any budget.
         let mut reversed = row(0.6);
         reversed.reverse();
         for ends in &mut sweep.axes[..1] {

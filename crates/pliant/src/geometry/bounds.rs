@@ -1,14 +1,16 @@
-//! The exact extent of points, and the box that holds it. Many boxes side by side are
-//! `kernels::BoxLanes`.
+//! Single axis-aligned boxes: exact in the caller's scalar, and in `f32` for pruning.
 
 use super::Real;
 use super::real::{OUTWARD, larger, smaller};
 use std::array::from_fn;
 
-/// The point that the boxes of a world are relative to, and padding.
+/// Origin that the boxes of a world are relative to, and padding.
+///
+/// It follows the bodies of the world. Where the bodies of an `f64` world are far apart compared
+/// with their size, boxes are looser: the same answers take more work.
 pub(crate) type Origin = [f64; 4];
 
-/// The exact extent of some points, in the caller's coordinates.
+/// Axis-aligned bounds of points in the caller's coordinates, exact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Bounds<S> {
     pub(crate) lo: [S; 3],
@@ -16,12 +18,13 @@ pub(crate) struct Bounds<S> {
 }
 
 impl<S: Real> Bounds<S> {
+    /// Bounds of no point: the neutral element of [`union`](Self::union).
     pub(crate) const EMPTY: Self = Self {
         lo: [S::INFINITY; 3],
         hi: [S::NEG_INFINITY; 3],
     };
 
-    /// A NaN is passed over.
+    /// Extends the bounds to a point. A NaN is passed over.
     #[inline]
     pub(crate) fn include(&mut self, point: [S; 3]) {
         for axis in 0..3 {
@@ -30,7 +33,7 @@ impl<S: Real> Bounds<S> {
         }
     }
 
-    /// The bounds of both.
+    /// Returns the smallest bounds that hold both.
     pub(crate) fn union(&self, other: &Self) -> Self {
         Self {
             lo: from_fn(|axis| smaller(self.lo[axis], other.lo[axis])),
@@ -38,7 +41,7 @@ impl<S: Real> Bounds<S> {
         }
     }
 
-    /// The box that holds these bounds: exact for `f32`, rounded outward for `f64`.
+    /// Converts to an `f32` box relative to `origin`: exact for `f32`, rounded outward for `f64`.
     #[inline]
     pub(crate) fn to_box(self, origin: Origin) -> Aabb {
         Aabb {
@@ -47,18 +50,19 @@ impl<S: Real> Bounds<S> {
         }
     }
 
-    /// Touching counts; nothing overlaps the bounds of nothing.
+    /// Whether two bounds overlap: touching counts. Empty bounds overlap nothing.
     #[inline]
     pub(crate) fn overlaps(&self, other: &Self) -> bool {
         (0..3).all(|axis| self.lo[axis] <= other.hi[axis] && other.lo[axis] <= self.hi[axis])
     }
 
+    /// Whether a point lies within the bounds, borders included.
     pub(crate) fn holds(&self, point: [S; 3]) -> bool {
         (0..3).all(|axis| self.lo[axis] <= point[axis] && point[axis] <= self.hi[axis])
     }
 }
 
-/// A closed box `lo <= x <= hi` in `f32`.
+/// Closed axis-aligned box `lo <= x <= hi` in `f32`.
 pub(crate) type Aabb = Bounds<f32>;
 
 impl Aabb {
@@ -68,10 +72,9 @@ impl Aabb {
         self.holds(other.lo) && self.holds(other.hi)
     }
 
-    /// This box grown by a distance on every side, rounded outward.
+    /// Returns the box grown by `distance` on every side, rounded outward.
     pub(crate) fn grown(&self, distance: f32) -> Self {
-        // A difference is off by at most a quarter of what is taken away here, as in
-        // `Real::round_down` of f64.
+        // A difference is off by at most a quarter of `outward`, as in `Real::round_down` of `f64`.
         let outward = |x: f32| x.abs() * OUTWARD + f32::MIN_POSITIVE;
         Self {
             lo: self.lo.map(|x| (x - distance) - outward(x - distance)),
@@ -81,7 +84,7 @@ impl Aabb {
 }
 
 impl Bounds<f64> {
-    /// Whether both are at most so far apart on every axis: exactly.
+    /// Whether two bounds are at most `distance` apart on every axis, decided exactly.
     pub(crate) fn are_within(&self, other: &Self, distance: f64) -> bool {
         pliant_exact::are_boxes_within(&[self.lo, self.hi], &[other.lo, other.hi], distance)
     }

@@ -1,17 +1,19 @@
-//! Points side by side in memory, laid out so that one is read as four numbers at once.
+//! Points padded to four numbers each, so that a register reads one at once.
 
 use super::{Bounds, Real};
 use crate::held::held;
 use crate::ids::TreeVertex;
 
-/// Points in a row that have bounds of their own.
+/// Points in a row. Each row has bounds of its own; a box over a long run is made from these.
 pub(crate) const IN_A_ROW: usize = 32;
 
-/// The bounds of some points: lo and hi, each with padding behind it.
+/// Bounds of a row of points: lower and upper corner, each padded.
 pub(crate) type RowBounds<S> = [[S; 4]; 2];
 
-/// Points of three coordinates and padding, so that each fills a register of four; and the bounds of every [`IN_A_ROW`], from which
-/// the boxes of upper nodes, whose points are long runs, are made. `kernels::gather` fills both.
+/// Points of three coordinates and padding, with the bounds of every [`IN_A_ROW`] of them.
+///
+/// One point fills a register of four. Boxes of upper nodes, whose points are long runs, are made
+/// from the bounds of rows. `kernels::gather` fills both lists.
 #[derive(Clone, Debug)]
 pub(crate) struct Points<S> {
     pub(crate) points: Vec<[S; 4]>,
@@ -19,7 +21,7 @@ pub(crate) struct Points<S> {
 }
 
 impl<S: Real> Points<S> {
-    /// Room for points that are yet to come.
+    /// Allocates `len` points and their rows, to be filled in later.
     pub(crate) fn with_len(len: usize) -> Self {
         Self {
             points: vec![[S::default(); 4]; len],
@@ -27,14 +29,14 @@ impl<S: Real> Points<S> {
         }
     }
 
-    /// Points in the order in which they come: what `kernels::gather` must give.
+    /// Collects points in the order of the iterator: the reference for `kernels::gather`.
     pub(crate) fn of(points: impl ExactSizeIterator<Item = [S; 3]>) -> Self {
         let mut all = Self::with_len(0);
         all.refill(points);
         all
     }
 
-    /// As many points as come, in memory that is there.
+    /// Replaces all points; reuses the memory.
     pub(crate) fn refill(&mut self, points: impl Iterator<Item = [S; 3]>) {
         self.points.clear();
         self.points.extend(points.map(padded));
@@ -43,25 +45,25 @@ impl<S: Real> Points<S> {
         self.bounds.extend(rows.map(bounds_of_row));
     }
 
-    /// One more point, behind all others.
+    /// Appends a point.
     pub(crate) fn push(&mut self, point: [S; 3]) {
         self.points.push(padded(point));
         self.bound_last_row();
     }
 
-    /// The last point goes.
+    /// Removes the last point.
     pub(crate) fn pop(&mut self) {
         self.points.pop();
         self.bound_last_row();
     }
 
-    /// A point is somewhere else.
+    /// Moves a point, and updates the bounds of its row.
     pub(crate) fn set(&mut self, vertex: TreeVertex, point: [S; 3]) {
         self.points[vertex.index()] = padded(point);
         self.bound_row(vertex.index() / IN_A_ROW);
     }
 
-    /// As many rows as the points fill, and the bounds of the last one made anew.
+    /// Fits the number of rows to the points, and recomputes the bounds of the last row.
     fn bound_last_row(&mut self) {
         let rows = self.points.len().div_ceil(IN_A_ROW);
         self.bounds.resize(rows, [[S::default(); 4]; 2]);
@@ -70,12 +72,14 @@ impl<S: Real> Points<S> {
         }
     }
 
+    /// Recomputes the bounds of a row.
     fn bound_row(&mut self, row: usize) {
         let first = row * IN_A_ROW;
         let end = self.points.len().min(first + IN_A_ROW);
         self.bounds[row] = bounds_of_row(&self.points[first..end]);
     }
 
+    /// Returns a point.
     #[inline]
     pub(crate) fn get(&self, vertex: TreeVertex) -> [S; 3] {
         let [x, y, z, _] = *self.padded(vertex);
@@ -95,7 +99,7 @@ fn padded<S: Copy>([x, y, z]: [S; 3]) -> [S; 4] {
 }
 
 impl<S> Points<S> {
-    /// A point and padding.
+    /// Returns a point with its padding.
     #[inline(always)]
     pub(crate) fn padded(&self, vertex: TreeVertex) -> &[S; 4] {
         &self.points[vertex.index()]

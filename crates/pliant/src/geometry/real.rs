@@ -1,14 +1,15 @@
-//! The two coordinate types, `f32` and `f64`, and the only place where they differ.
+//! The two coordinate types, `f32` and `f64`, and all that differs between them.
 //!
-//! Precision lives at the edges. Positions are kept in the caller's type and decisions are exact on them; in between everything is
-//! done on boxes, which are `f32` whatever the coordinates are. A box only ever *skips* work, so it must hold its triangles; how
-//! tightly is a matter of speed. For `f32` it is exact. For `f64` it is relative to one origin of the world (far from zero an `f32`
-//! has no digits left for the shape) and rounded outward.
+//! Positions stay in the caller's type, and decisions are exact on them. In between lie boxes,
+//! which are always `f32`. A box only *skips* work, so it must hold its triangles; how tightly is a
+//! matter of speed. For `f32` a box is exact. For `f64` it is rounded outward, relative to one
+//! origin of the world: far from zero an `f32` has no digits left.
 
 use pliant_exact::Precision;
 use std::ops::{Add, Mul};
 
-/// A coordinate: `f32` or `f64`. What differs between them, one number at a time; what registers do is `kernels::Coordinate`.
+/// Coordinate scalar, `f32` or `f64`: operations on one number. For registers see
+/// `kernels::Coordinate`.
 pub(crate) trait Real:
     Copy
     + PartialOrd
@@ -20,43 +21,49 @@ pub(crate) trait Real:
     + Sync
     + 'static
 {
-    /// The value that no position may have; a buffer is filled with it before the caller writes.
+    /// Sentinel that no position may be; a buffer is filled with it before the caller writes.
     const NAN: Self;
     const INFINITY: Self;
     const NEG_INFINITY: Self;
-    /// What exact decisions are told of it.
+    /// Precision of the type, as exact decisions are told it.
     const PRECISION: Precision;
     /// Whether boxes are exact, so that an origin has no use.
     const BOXES_ARE_EXACT: bool;
 
-    /// How much further [`past`](Self::past) goes: this part of the larger end, and [`LEAST`](Self::LEAST).
+    /// Relative margin of [`past`](Self::past): this part of the larger end's magnitude.
     const FURTHER: f64;
+    /// Absolute margin of [`past`](Self::past), added to the relative one.
     const LEAST: f64;
-    /// The smallest positive coordinate for which subnormal numbers are not needed.
+    /// Smallest positive coordinate with which arithmetic needs no subnormal numbers.
     const NEEDS_NONE: Self;
 
-    /// The same value; exact.
+    /// Converts to `f64`; exact.
     fn to_f64(self) -> f64;
-    /// The nearest value of this type.
+    /// Rounds to the nearest value of this type.
     fn from_f64(x: f64) -> Self;
-    /// Finite and at most `f32::MAX` in magnitude.
+    /// Whether the value is finite and at most `f32::MAX` in magnitude.
     fn is_in_range(self) -> bool;
-    /// Whether a thread that flushes subnormal numbers loses this coordinate, or may lose a difference of it and another.
+    /// Whether a thread that flushes subnormal numbers may lose this coordinate, or its difference
+    /// from another.
     fn needs_subnormals(self) -> bool;
-    /// What is the part `t`, from 0 to 1, of the way from here to another: `self + t (to - self)` in `f64`, each operation rounded, and the
-    /// result rounded to this type; never beyond either end.
+    /// Linear interpolation to `to` at `t` from 0 to 1, rounded, never beyond either end.
+    ///
+    /// It is `self + t (to - self)` in `f64`, each operation rounded, and the result rounded to
+    /// this type.
     #[inline]
     fn toward(self, to: Self, t: f64) -> Self {
         Self::from_f64(part_of_way(self.to_f64(), to.to_f64(), t))
     }
-    /// A place that is at least the part `t`, from 0 to 1, of the way from here to another in exact arithmetic, and at most all of it; if
-    /// subnormal numbers are flushed too, and read as zero.
+    /// Linear interpolation to `to` at `t` from 0 to 1, rounded towards `to` and never beyond.
+    ///
+    /// At least as far as the interpolation in exact arithmetic. This also holds where subnormal
+    /// numbers are flushed, and where they are read as zero.
     #[inline]
     fn past(self, to: Self, t: f64) -> Self {
         let [from, to] = [self, to].map(Self::to_f64);
         let there = part_of_way(from, to, t);
         let further = larger(from.abs(), to.abs()) * Self::FURTHER + Self::LEAST;
-        // Roundings are monotone, so this is not beyond the other end.
+        // Rounding is monotonic, so this is not beyond the other end.
         Self::from_f64(if from < to {
             smaller(there + further, to)
         } else if from > to {
@@ -65,13 +72,15 @@ pub(crate) trait Real:
             from
         })
     }
-    /// An `f32` that is not above `self - origin`; for `f32` itself, the origin being zero.
+    /// Rounds `self - origin` to an `f32` that is not above it. For `f32` the origin is zero, and
+    /// the value is kept.
     fn round_down(self, origin: f64) -> f32;
-    /// An `f32` that is not below `self - origin`; for `f32` itself, the origin being zero.
+    /// Rounds `self - origin` to an `f32` that is not below it. For `f32` the origin is zero, and
+    /// the value is kept.
     fn round_up(self, origin: f64) -> f32;
 }
 
-/// The part of `Real` that both types say in the same words.
+/// Implements the part of [`Real`] that reads alike for both types.
 macro_rules! in_both {
     ($type:ty) => {
         const NAN: Self = <$type>::NAN;
@@ -91,8 +100,8 @@ macro_rules! in_both {
             self.abs() <= f32::MAX.into()
         }
         fn needs_subnormals(self) -> bool {
-            // Bits, because such a thread takes a subnormal number for zero; zero, less one, is the
-            // largest of all.
+            // Bits, because a thread that flushes reads a subnormal number as zero. Zero needs
+            // none: its bits less one wrap to the largest number.
             self.abs().to_bits().wrapping_sub(1) < Self::NEEDS_NONE.to_bits() - 1
         }
     };
@@ -103,8 +112,8 @@ impl Real for f32 {
 
     const PRECISION: Precision = Precision::Single;
     const BOXES_ARE_EXACT: bool = true;
-    // `past` rounds once to f32, after roundings that are 2^29 times smaller: together less than 2^-23. A result below 2^-126 may be taken
-    // for zero.
+    // `past` rounds once to f32, after roundings that are 2^29 times smaller: together less than
+    // 2^-23. A result below 2^-126 may be taken for zero.
     const FURTHER: f64 = f64::from_bits((1023 - 22) << 52);
     const LEAST: f64 = f64::from_bits((1023 - 124) << 52);
     const NEEDS_NONE: Self = f32::MIN_POSITIVE;
@@ -123,8 +132,9 @@ impl Real for f64 {
     in_both!(f64);
     const PRECISION: Precision = Precision::Double;
     const BOXES_ARE_EXACT: bool = false;
-    // With L for the larger end: a difference of at most 2 L, a product with it and a sum of at most 3 L, and what is added to it, each rounded
-    // to 2^-53 of itself: less than 2^-49 L. Each result below 2^-1022 may be taken for zero.
+    // Let L be the magnitude of the larger end. Four values are rounded: a difference of at most
+    // 2 L, a product with it, a sum of at most 3 L, and the result. Each is off by 2^-53 of itself:
+    // together less than 2^-49 L. A result below 2^-1022 may be taken for zero.
     const FURTHER: f64 = f64::from_bits((1023 - 49) << 52);
     const LEAST: f64 = f64::from_bits((1023 - 1018) << 52);
     // 2^-969: from there on coordinates, and so their differences, are multiples of 2^-1021.
@@ -132,9 +142,10 @@ impl Real for f64 {
 
     #[inline]
     fn round_down(self, origin: f64) -> f32 {
-        // Two roundings to nearest, to f64 and to f32, are off by less than a quarter of what is taken away here; so is that
-        // of this line itself. Below the normal range the absolute term is for what is lost there. A difference beyond
-        // f32 is brought back to the largest f32, which is below it.
+        // Two roundings to nearest, to f64 and to f32, are off by less than a quarter of the amount
+        // subtracted here. So is the rounding of this subtraction itself. The absolute term makes
+        // up for losses below the normal range. A difference beyond f32 becomes the largest f32,
+        // which is below it.
         let nearest = smaller((self - origin) as f32, f32::MAX);
         nearest - (nearest.abs() * OUTWARD + f32::MIN_POSITIVE)
     }
@@ -145,23 +156,25 @@ impl Real for f64 {
     }
 }
 
-/// The part `t` of the way from one to another, never beyond either end.
+/// Linear interpolation at `t`, clamped to the two ends.
 #[inline]
 fn part_of_way(from: f64, to: f64, t: f64) -> f64 {
     let there = from + t * (to - from);
     larger(smaller(there, larger(from, to)), smaller(from, to))
 }
 
-/// 2^-22, four times the most by which rounding to the nearest `f32` is off.
+/// Factor of outward rounding: 2^-22, four times the relative error of rounding to `f32`.
 pub(crate) const OUTWARD: f32 = 2.0 * f32::EPSILON;
 
-/// The smaller of two; `a` if either is NaN. One instruction, which `f32::min`, careful on both sides, is not.
+/// Returns the smaller of two values; `a` if either is NaN.
+///
+/// One instruction, which `f32::min`, careful on both sides, is not.
 #[inline]
 pub(crate) fn smaller<T: PartialOrd>(a: T, b: T) -> T {
     if b < a { b } else { a }
 }
 
-/// The larger of two; `a` if either is NaN.
+/// Returns the larger of two values; `a` if either is NaN.
 #[inline]
 pub(crate) fn larger<T: PartialOrd>(a: T, b: T) -> T {
     if b > a { b } else { a }
@@ -172,7 +185,7 @@ mod tests {
     use super::*;
     use std::hint::black_box;
 
-    /// Compares `bound` with the exact `x - origin`, in integers: all values are multiples of 2^-40 below 2^60.
+    /// Converts to a multiple of 2^-40: all values here are such multiples, below 2^60.
     fn exact(x: f64) -> i128 {
         (x * 2f64.powi(40)) as i128
     }
@@ -270,9 +283,10 @@ mod tests {
             let (ways, doubles) = (black_box(ways), black_box(doubles));
             (ways.map(single), doubles.map(double))
         };
-        // Compared here, where no operand is taken for zero. What is read as zero has to be as good.
+        // Compared here, where no operand is taken for zero. A result that is read as zero must be
+        // as good.
         let check = |(singles, found): ([f32; 4], [f64; 4])| {
-            let read = |place: f64, smallest: f64| if place.abs() < smallest { 0.0 } else { place };
+            let read = |place: f64, least: f64| if place.abs() < least { 0.0 } else { place };
             for ((from, to, t), found) in ways.into_iter().zip(singles) {
                 let [from, to] = [from, to].map(|it| f64::from(it as f32));
                 let place = (1.0 - t) * from + t * to;

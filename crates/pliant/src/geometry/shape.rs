@@ -1,4 +1,4 @@
-//! The shape a body has now, and the boxes of its parts.
+//! Current shape of a body: where its vertices are, and what boxes are relative to.
 
 #[cfg(test)]
 use super::Aabb;
@@ -8,21 +8,21 @@ use super::bounds::Origin;
 use super::{Points, Real};
 use crate::ids::{TreeTriangle, TreeVertex};
 
-/// The current shape of a body, as everything that makes boxes sees it.
+/// Current shape of a body, as everything that makes boxes reads it.
 #[derive(Clone, Copy)]
 pub(crate) struct Shape<'a, S> {
-    /// Positions in tree order.
+    /// Positions of vertices in tree order.
     pub(crate) positions: &'a Points<S>,
-    /// The corners of each triangle, both in tree order.
+    /// Corners of each triangle; triangles and vertices in tree order.
     pub(crate) triangles: &'a [[TreeVertex; 3]],
-    /// Boxes are relative to this point (zero for `f32`).
+    /// Origin that boxes are relative to; zero for `f32`.
     pub(crate) origin: Origin,
-    /// Counts the changes of shape; a box that was made in another version is stale.
+    /// Version of the shape, counted up at each change. A box made from another version is stale.
     pub(crate) version: u64,
 }
 
 impl<S: Real> Shape<'_, S> {
-    /// The box of one triangle: what the kernels must give.
+    /// Box of one triangle: the reference for the kernels.
     #[cfg(test)]
     pub(crate) fn box_of(&self, triangle: TreeTriangle) -> Aabb {
         let mut bounds = Bounds::EMPTY;
@@ -32,7 +32,7 @@ impl<S: Real> Shape<'_, S> {
         bounds.to_box(self.origin)
     }
 
-    /// Three corners of a triangle as the exact decision wants them; exact.
+    /// Returns the corners of a triangle in `f64`, as the exact decision takes them; exact.
     #[inline]
     pub(crate) fn corners(&self, triangle: TreeTriangle) -> [[f64; 3]; 3] {
         self.triangles[triangle.index()].map(|vertex| self.positions.get(vertex).map(Real::to_f64))
@@ -45,7 +45,7 @@ mod tests {
     use super::*;
     use pliant_oracle::{Class, Random, sign_of_sum};
 
-    /// Six corners of every size, which no f32 holds, and an origin.
+    /// Six corners of every size, which no `f32` holds, and an origin.
     fn corners() -> impl Iterator<Item = (Vec<[f64; 3]>, [f64; 3])> {
         let mut random = Random::new(12);
         (0..4_000).map(move |round| {
@@ -62,7 +62,7 @@ mod tests {
         })
     }
 
-    /// On which side of `bound` the exact `x - origin` lies.
+    /// Side of `bound` on which the exact `x - origin` lies.
     fn side(x: f64, origin: f64, bound: f32) -> i8 {
         match bound {
             f32::INFINITY => -1,
@@ -109,7 +109,8 @@ mod tests {
                 let lo = smaller(boxes[0].lo[axis], boxes[1].lo[axis]);
                 let hi = larger(boxes[0].hi[axis], boxes[1].hi[axis]);
                 assert_eq!((lo, hi), (parent.lo[axis], parent.hi[axis]), "{origin:?}");
-                // And no box of normal numbers is larger than it must be by more than a few units in the last place.
+                // And no box of normal numbers is too large by more than a few units in the last
+                // place.
                 if lo.abs() <= f32::MIN_POSITIVE || lo.is_infinite() {
                     continue;
                 }

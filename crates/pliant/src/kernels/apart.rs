@@ -1,55 +1,49 @@
-//! Whether elements that move stay apart: eight pairs side by side, by separating directions.
+//! Separating directions: which of eight pairs of moving elements stay apart during a motion.
 //!
-//! Corners move on straight lines. So for any direction n that stands still, the projection n . q(t) of the difference q of two corners is
-//! affine in t; and elements are hulls of their corners at every time. If at two times all projections of corners of the one less corners
-//! of the other are above zero, the elements are apart at all times between them. This is a proof for every n, however it was found. Here n
-//! is the way between the closest points at the time up to which a pair is known to be apart, from plain arithmetic; a time is gained up to
-//! which the projections stay above zero, and from there again. Most pairs are known to be apart all the way after one direction, be they
-//! tangential, parting or near.
-//!
-//! **Rounding.** Let u = 2^-24. Differences of corners are off by one rounding to f32 (those of f64 by a second, 2^29 times smaller); a
-//! projection by another of each product and two sums, one between two times by three more: seven roundings on every path, each of a number
-//! of at most the sum s of |n| |q| over the axes, with the larger |q| of both ends. The bound allows 10 u s. What is lost below the normal
-//! range, even where subnormal numbers are flushed to zero, is less than 2^-126 times a component of n in a difference, and 2^-126 in a
-//! product: where the components of n are below 2^60, all of it is less than 2^-62, and the bound allows 2^-60. Other lanes, and those in
-//! which something is infinite, are not known to be apart.
-//!
-//! Affine functions are compared with their values at both ends of what is left of the motion, less the bound. So up to a part a / (a - b)
-//! of it, where these are a > 0 and b, they are above zero in exact arithmetic; a thousandth less is taken, which is more than the rounding
-//! of times if the gain is at least 2^-12. Smaller gains do not count.
+//! Corners move on straight lines, so on a fixed direction n the difference q(t) of two corners has
+//! a projection affine in t. An element is the hull of its corners. So if all projections are above
+//! zero at two times, the elements are apart at all times between. That is a proof for every n;
+//! here n is the way between the closest points at the latest time known to be free. Most pairs,
+//! whether tangential, parting or near, are known to be apart all the way after one direction.
 
 use super::coordinate::{Coordinate, Vectors};
 use super::vector::{dot, minus, plus, times};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, mask32x8};
 
-/// 10 u.
+/// Relative bound on rounding: 10 u.
 const RELATIVE_ERROR: f32 = 10.0 * (f32::EPSILON / 2.0);
-/// 2^-60.
+/// Bound on what is lost below the normal range: 2^-60.
 const LOST: f32 = 1.0 / (1_u64 << 60) as f32;
-/// 2^60.
+/// Bound on the components of a direction: 2^60.
 const LONGEST: f32 = (1_u64 << 60) as f32;
-/// 2^120: where the sums are below it, no product and no sum of such is infinite, or no number.
+/// Bound on sums of products: 2^120. Below it no product, and no sum of products, overflows or is
+/// NaN.
 const LARGEST: f32 = LONGEST * LONGEST;
+/// Part of a gain in time that is taken: a thousandth is more than the rounding of times.
 const THOUSANDTH_LESS: f32 = 0.999;
-/// 2^-12.
+/// The least gain in time that counts: 2^-12.
 const LEAST_GAIN: f32 = 1.0 / (1_u64 << 12) as f32;
-/// So many directions are tried.
+/// Number of directions that are tried before a pair is left open.
 const DIRECTIONS: usize = 3;
 
-/// The corners of eight pairs of elements at the start of a motion, 0 to 3, and at its end, 4 to 7: a vertex and the corners of a triangle;
-/// or both ends of either edge.
+/// Corners of eight pairs of moving elements, by corner and lane.
+///
+/// Corners 0 to 3 are at the start of the motion, 4 to 7 at its end. They are a vertex and a
+/// triangle's corners, or both ends of either edge.
 pub(crate) type MovingCorners<'p, S> = [[&'p [S; 4]; 8]; 8];
 
-/// The differences of two elements: corners of a polygon that move. Of triangles the last is not used.
+/// Differences of the corners of two elements: a polygon in motion, in eight lanes. A triangle does
+/// not use the last corner.
 struct Polygon<I: Simd> {
     start: [Vectors<I>; 4],
     end: [Vectors<I>; 4],
-    /// The larger magnitude of both.
+    /// Per component, the larger magnitude at start and end.
     most: [Vectors<I>; 4],
 }
 
-/// Differences of two edges: the corners of a parallelogram in order, at the start and at the end.
+/// Corner differences of two edges: a parallelogram's corners in order, at the start and at the
+/// end.
 const OF_EDGES: [(usize, usize); 8] = [
     (0, 2),
     (1, 2),
@@ -61,10 +55,12 @@ const OF_EDGES: [(usize, usize); 8] = [
     (4, 7),
 ];
 
-/// Differences of a triangle's corners and a vertex: a triangle, at the start and at the end.
+/// Corner differences of a triangle and a vertex: a triangle, at the start and at the end.
 const OF_TRIANGLES: [(usize, usize); 6] = [(1, 0), (2, 0), (3, 0), (5, 4), (6, 4), (7, 4)];
 
-/// Which of eight pairs surely stay further apart than `distance` up to `until`, at most 1.
+/// Bit mask of the pairs, of eight, that surely stay further apart than `distance` up to the time
+/// `until`, at most 1.
+///
 /// All are two edges each, or all are a vertex and a triangle.
 #[inline(always)]
 pub(crate) fn apart<I: Simd, S: Coordinate>(
@@ -81,13 +77,36 @@ pub(crate) fn apart<I: Simd, S: Coordinate>(
         stays_off::<I, true>(&polygon, until, distance)
     } else {
         let [a0, b0, c0, a1, b1, c1] = S::differences(i, 8, corner, OF_TRIANGLES);
-        // The first corner again in place of a fourth costs little.
+        // A repeated first corner in place of a fourth costs little.
         let polygon = Polygon::new([a0, b0, c0, a0], [a1, b1, c1, a1]);
         stays_off::<I, false>(&polygon, until, distance)
     }
 }
 
-/// Which of eight polygons surely stay further from the origin than that.
+/// Bit mask of the polygons, of eight, that surely stay further from the origin than `distance` up
+/// to the time `until`.
+///
+/// Affine functions are compared with their values, less the error bound, at both ends of the rest
+/// of the motion. Let these be a > 0 and b < 0. Then the function is above zero, in exact
+/// arithmetic, up to the part a / (a - b) of the rest. A thousandth less is taken, which is more
+/// than the rounding of times if the gain is at least 2^-12. Smaller gains do not count.
+///
+/// # Rounding
+///
+/// Let u = 2^-24. These roundings are on every path:
+///
+/// - A difference of corners: one rounding to `f32`. Differences of `f64` have a second one, 2^29
+///   times smaller.
+/// - A projection: one for each product, and two sums.
+/// - A value between two times: three more.
+///
+/// That is seven roundings. Each is of a number of at most s, the sum of |n| |q| over the axes,
+/// with the larger |q| of both ends. The bound allows 10 u s.
+///
+/// Below the normal range a difference loses less than 2^-126 times a component of n, and a product
+/// less than 2^-126. That holds even where subnormal numbers are flushed to zero. Where the
+/// components of n are below 2^60, the loss in all is less than 2^-62. The bound allows 2^-60.
+/// Other lanes, and lanes in which something is infinite, are not known to be apart.
 #[inline(always)]
 fn stays_off<I: Simd, const ARE_EDGES: bool>(
     polygon: &Polygon<I>,
@@ -103,7 +122,8 @@ fn stays_off<I: Simd, const ARE_EDGES: bool>(
         let now = polygon.at(known);
         let n = nearest_of::<I, ARE_EDGES>(&now);
         let wide = n[0].abs() + n[1].abs() + n[2].abs();
-        // Divided by the length, which is off by less than 4 u of itself, the projections would be distances.
+        // Divided by the length of n, which is off by less than 4 u of itself, the projections
+        // would be distances.
         let level = dot(n, n).sqrt() * splat(distance * (1.0 + f32::EPSILON * 8.0));
         let (mut at_known, mut at_end) = (splat(f32::INFINITY), splat(f32::INFINITY));
         let mut gain = splat(1.0);
@@ -120,7 +140,7 @@ fn stays_off<I: Simd, const ARE_EDGES: bool>(
             let last = start + until * step - error;
             at_known = at_known.min(first);
             at_end = at_end.min(last);
-            // Where the last is above zero there is no limit; then it is 1 or more, or no number.
+            // Where `last` is above zero there is no limit: `part` is then at least 1, or NaN.
             let part = first / (first - last);
             gain = last.simd_gt(zero).select(gain, gain.min(part));
         }
@@ -154,7 +174,7 @@ impl<I: Simd> Polygon<I> {
         Self { start, end, most }
     }
 
-    /// About where the corners are at a time.
+    /// Approximate corners at the time `t`.
     #[inline(always)]
     fn at(&self, t: f32x8<I>) -> [Vectors<I>; 4] {
         let mut at = self.start;
@@ -168,7 +188,7 @@ impl<I: Simd> Polygon<I> {
     }
 }
 
-/// The nearest point so far, and the square of its distance.
+/// The nearest point so far, and the square of its distance from the origin.
 struct Nearest<I: Simd> {
     point: Vectors<I>,
     square: f32x8<I>,
@@ -189,7 +209,7 @@ impl<I: Simd> Nearest<I> {
     }
 }
 
-/// About the point of a parallelogram, or of a triangle, that is nearest to the origin.
+/// Approximate point of a parallelogram, or of a triangle, that is nearest to the origin.
 #[inline(always)]
 fn nearest_of<I: Simd, const ARE_EDGES: bool>([a, b, c, d]: &[Vectors<I>; 4]) -> Vectors<I> {
     let last = if ARE_EDGES { d } else { c };
@@ -218,18 +238,20 @@ fn nearest_of<I: Simd, const ARE_EDGES: bool>([a, b, c, d]: &[Vectors<I>; 4]) ->
     nearest.point
 }
 
-/// The point of a segment from p to p + e that is nearest to the origin.
+/// The point nearest to the origin on the segment from `p` to `p + e`.
 #[inline(always)]
 fn on_segment<I: Simd>(p: Vectors<I>, e: Vectors<I>) -> Vectors<I> {
     let i = p[0].token();
     let (zero, one) = (f32x8::splat(i, 0.0), f32x8::splat(i, 1.0));
     let (part, whole) = (zero - dot(p, e), dot(e, e));
-    // Of a segment that is a point, both are zero.
+    // A segment that is a point has zero for both.
     let inside = part.simd_lt(whole).select(part / whole, one);
     along(p, part.simd_gt(zero).select(inside, zero), e)
 }
 
-/// The foot of the origin on the plane through p with sides e and f: how far along both, and whether neither is below zero.
+/// Foot of the perpendicular from the origin to the plane through `p` with sides `e` and `f`.
+///
+/// Returns how far along both sides it is, and whether neither is below zero.
 #[inline(always)]
 fn foot<I: Simd>(p: Vectors<I>, e: Vectors<I>, f: Vectors<I>) -> (f32x8<I>, f32x8<I>, mask32x8<I>) {
     let zero = f32x8::splat(p[0].token(), 0.0);
@@ -257,7 +279,8 @@ mod tests {
     use pliant_oracle::{Elements, MotionClass, Moving, Random, first_contact, motion_fits_f32};
     use std::cmp::Ordering;
 
-    /// Which of eight motions are surely apart; the same with all instructions.
+    /// Bit mask of the motions, of eight, that are surely apart. Asserts that it is equal for all
+    /// instruction sets.
     fn claims<S: Coordinate>(
         motions: &[(Elements, Moving); 8],
         elements: Elements,
@@ -308,7 +331,7 @@ mod tests {
             } else {
                 0
             };
-            // Of the size that distances in it have.
+            // A distance of the size that occurs in the motion.
             let distance = (motions[0].1[0][0][0] - motions[0].1[0][2][0]).abs() as f32 * 0.25;
             let far = claims(&motions, elements, |x| x, until, distance);
             assert_eq!(far & !doubles, 0, "further apart than a distance is apart");

@@ -1,18 +1,24 @@
-//! N boxes side by side, and one box against all of them.
+//! N boxes side by side in lanes, and their overlap with one box or with eight.
+//!
+//! The boxes of eight children, or of eight triangles of a leaf, are one register an axis and side.
+//! Two sets of eight are compared all with all: a mask of 64 bits.
 
 use crate::geometry::{Aabb, larger, smaller};
 use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
 
-/// N closed boxes in structure-of-arrays order. An empty lane is NaN: ordered comparisons with it are false, so it overlaps
-/// nothing, not even an infinite box (a pair of infinities would), and merging passes it over.
+/// N closed boxes in structure-of-arrays order.
+///
+/// An empty lane is NaN. Ordered comparisons with it are false, so it overlaps nothing, not even an
+/// infinite box, and merging skips it. A pair of infinities would overlap an infinite box.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BoxLanes<const N: usize> {
     pub(super) lo: [[f32; N]; 3],
     pub(super) hi: [[f32; N]; 3],
 }
 
-/// As many as a register has lanes: of eight triangles of a leaf, or of eight elements.
+/// Eight boxes, one for each lane of a register: of the eight triangles of a leaf, or of eight
+/// elements.
 pub(crate) type EightBoxes = BoxLanes<8>;
 
 impl<const N: usize> BoxLanes<N> {
@@ -37,7 +43,7 @@ impl<const N: usize> BoxLanes<N> {
         }
     }
 
-    /// Makes a lane and those after it empty.
+    /// Makes `lane` and all lanes after it empty.
     #[inline]
     pub(crate) fn empty_from(&mut self, lane: usize) {
         for axis in 0..3 {
@@ -48,12 +54,14 @@ impl<const N: usize> BoxLanes<N> {
         }
     }
 
-    /// The smallest box that holds all lanes. Lanes are used from the first on, so of two lanes the lower is never the empty one
-    /// alone, and passing over a NaN on the right is enough.
+    /// The smallest box that holds all lanes.
+    ///
+    /// Lanes are used from the first on, so the lower of two lanes is never the only empty one. It
+    /// is therefore enough to skip a NaN on the right.
     #[inline(always)]
     pub(crate) fn union(&self) -> Aabb {
-        // Halves are folded onto each other, in steps that a wide register does at once; one lane after the other would wait
-        // for each comparison.
+        // Halves are folded onto each other, a step of one wide instruction each. Going lane by
+        // lane would wait for each comparison.
         let (mut lo, mut hi) = (self.lo, self.hi);
         let mut width = N;
         while width > 1 {
@@ -71,7 +79,7 @@ impl<const N: usize> BoxLanes<N> {
         }
     }
 
-    /// The longest side of every box; of empty ones no number.
+    /// Longest side of each box. It is NaN for an empty lane.
     #[inline(always)]
     pub(crate) fn longest_sides(&self) -> [f32; N] {
         let mut longest = [0.0; N];
@@ -86,17 +94,17 @@ impl<const N: usize> BoxLanes<N> {
         longest
     }
 
-    /// The longest side of the box of all.
+    /// Longest side of the box that holds all lanes.
     #[cfg(test)]
     pub(super) fn union_side(&self) -> f32 {
         let all = self.union();
         (0..3).fold(0.0, |most, axis| larger(all.hi[axis] - all.lo[axis], most))
     }
 
-    /// Bit i is set if lane i overlaps `query`; touching counts.
+    /// Overlap mask against one box: bit i is set if lane i overlaps `query`. Touching counts.
     #[inline(always)]
     pub(crate) fn overlaps(&self, query: &Aabb) -> u64 {
-        // Every lane is computed and no comparison ends the loop: what a wide register does in six compares.
+        // Every lane is computed and no comparison ends the loop, so that six wide compares do it.
         let mut overlaps = [0; 8];
         for lane in 0..N {
             overlaps[lane] = 1;
@@ -108,13 +116,15 @@ impl<const N: usize> BoxLanes<N> {
                 overlaps[lane] &= u8::from(below & above);
             }
         }
-        // Byte i of the product's factor is 0 or 1; the multiplier moves it to bit i of the highest byte.
+        // Byte i of this factor is 0 or 1. The multiplier moves it to bit i of the product's
+        // highest byte.
         u64::from_le_bytes(overlaps).wrapping_mul(0x0102_0408_1020_4080) >> 56
     }
 }
 
 impl<const N: usize> BoxLanes<N> {
-    /// Bit 8 i + j is set if lane i overlaps lane j of `other`; touching counts. What [`overlap_mask`] means.
+    /// Overlap mask by plain code, the definition of [`overlap_mask`]: bit `8 i + j` is set if lane
+    /// i overlaps lane j of `other`.
     #[cfg(test)]
     fn overlaps_all(&self, other: &Self) -> u64 {
         (0..N).fold(0, |mask, lane| {
@@ -137,7 +147,7 @@ impl<I: Simd> Registers<I> {
         Self { lo, hi }
     }
 
-    /// Fewer than eight have empty ones behind them.
+    /// Loads N boxes. Lanes from N on are empty.
     #[inline(always)]
     pub(super) fn new<const N: usize>(i: I, lanes: &BoxLanes<N>) -> Self {
         let mut boxes = Self::none(i);
@@ -149,7 +159,8 @@ impl<I: Simd> Registers<I> {
     }
 }
 
-/// Bit 8 i + j is set if lane i of `a` overlaps lane j of `b`; touching counts.
+/// Overlap mask of eight boxes against eight: bit `8 i + j` is set if lane i of `a` overlaps lane j
+/// of `b`. Touching counts.
 #[inline(always)]
 pub(crate) fn overlap_mask<I: Simd, const N: usize>(i: I, a: &BoxLanes<N>, b: &BoxLanes<N>) -> u64 {
     let b = Registers::new(i, b);
@@ -163,12 +174,18 @@ pub(crate) fn overlap_mask<I: Simd, const N: usize>(i: I, a: &BoxLanes<N>, b: &B
     mask
 }
 
-/// Bit 8 i + j is set unless lane i of `a` and lane j of `b` are surely further apart than the root of `limit`, a square. Of either so many
-/// lanes are compared, at least one; these are not empty.
+/// Proximity mask: bit `8 i + j` is set unless lane i of `a` and lane j of `b` are surely too far
+/// apart.
 ///
-/// A square of a gap computed in `f32` is off by six roundings of itself, and by 2^-148 below the normal range; where subnormal numbers are
-/// flushed, by 2^-64 of itself or 2^-184 more. A limit that is larger by 2^-20 of itself and 2^-100 allows for it. Where that is beyond
-/// `f32`, no square is.
+/// Too far means further than the root of `limit`, a square. Only the first `len_a` lanes of `a`
+/// and the first `len_b` of `b` are compared. There is at least one of either, and none is empty.
+///
+/// # Rounding
+///
+/// The square of a gap computed in `f32` is off by six roundings of itself, and by 2^-148 below the
+/// normal range. Where subnormal numbers are flushed, it is off by 2^-64 of itself or 2^-184 more.
+/// A limit larger by 2^-20 of itself and by 2^-100 allows for both. Where such a limit overflows
+/// `f32`, no square is above it.
 #[inline(always)]
 pub(crate) fn near_mask<I: Simd, const N: usize>(
     i: I,
@@ -196,7 +213,7 @@ pub(crate) fn near_mask<I: Simd, const N: usize>(
     mask
 }
 
-/// A row of N numbers as eight, the rest empty.
+/// Loads N numbers into eight lanes. The rest is empty.
 #[inline(always)]
 fn eight<I: Simd, const N: usize>(i: I, row: &[f32; N]) -> f32x8<I> {
     if let Ok(eight) = row.as_slice().try_into() {

@@ -1,18 +1,19 @@
-//! The lanes set in a mask, written to a list without a branch for each.
+//! Branch-free compaction: the set bits of a mask, appended to a list without a branch for each.
 //!
-//! How many bits a mask has cannot be predicted, and a wrong guess costs as much as ten items. So items are written four at a
-//! time whether there are so many or not, none included, and the length is then set by the number of bits.
+//! The number of bits in a mask cannot be predicted, and a mispredicted branch costs as much as ten
+//! items. So items are written four at a time, at least four, and the number of set bits then sets
+//! the length.
 
 use crate::held::held;
 
-/// A list with room for the items of one more mask behind its end.
+/// List with room behind its end for the items of one more mask.
 #[derive(Debug, Default)]
 pub(crate) struct Buffer<T> {
     items: Vec<T>,
     len: usize,
 }
 
-/// The bits of a mask.
+/// Most items of one mask, a `u64`.
 const ROOM: usize = 64;
 
 impl<T: Copy + Default> Buffer<T> {
@@ -25,7 +26,7 @@ impl<T: Copy + Default> Buffer<T> {
         &self.items[..self.len]
     }
 
-    /// The items by eights; what is missing to the last eight is the last item again.
+    /// The items in groups of eight. The last item is repeated to fill the last group.
     pub(crate) fn eights(&mut self) -> &[[T; 8]] {
         if self.len == 0 {
             return &[];
@@ -55,18 +56,18 @@ impl<T: Copy + Default> Buffer<T> {
         self.len
     }
 
-    /// The items from a place on.
+    /// The items from index `start` on.
     #[inline]
     pub(crate) fn tail_mut(&mut self, start: usize) -> &mut [T] {
         &mut self.items[start..self.len]
     }
 
-    /// Keeps the first `len` items, or all there are.
+    /// Keeps the first `len` items, or all if there are fewer.
     pub(crate) fn truncate(&mut self, len: usize) {
         self.len = self.len.min(len);
     }
 
-    /// Keeps the items of which `keeps` says so, in order.
+    /// Keeps the items for which `keeps` returns true, in order.
     pub(crate) fn retain(&mut self, keeps: impl Fn(&T) -> bool) {
         let mut kept = 0;
         for place in 0..self.len() {
@@ -79,7 +80,7 @@ impl<T: Copy + Default> Buffer<T> {
         self.truncate(kept);
     }
 
-    /// Takes the last `count` items, or all there are, and puts them into `taken` in their order.
+    /// Moves the last `count` items, or all if there are fewer, into `taken`, in their order.
     pub(crate) fn take_last(&mut self, count: usize, taken: &mut Vec<T>) {
         let rest = self.len.saturating_sub(count);
         taken.clear();
@@ -92,7 +93,7 @@ impl<T: Copy + Default> Buffer<T> {
         self.len += 1;
     }
 
-    /// Makes room for so many items, which [`push_if`](Self::push_if) may then write.
+    /// Makes room for `count` items, which [`push_if`](Self::push_if) may then write.
     #[inline(always)]
     pub(crate) fn make_room(&mut self, count: usize) {
         if self.items.len() < self.len + count {
@@ -100,15 +101,18 @@ impl<T: Copy + Default> Buffer<T> {
         }
     }
 
-    /// Appends an item if it is to be kept, without a branch. Room was made.
+    /// Appends an item if `keep` is true, without a branch. [`make_room`](Self::make_room) must
+    /// have been called.
     #[inline(always)]
     pub(crate) fn push_if(&mut self, item: T, keep: bool) {
         self.items[self.len] = item;
         self.len += usize::from(keep);
     }
 
-    /// Room for the items of one mask. To be asked for before the mask is computed: compilers would keep all that it is made of
-    /// in memory, across the call that makes room.
+    /// Room for the items of one mask.
+    ///
+    /// Ask for it before the mask is computed. Otherwise compilers spill everything that the mask
+    /// is made of, across the call that makes room.
     #[inline(always)]
     pub(crate) fn room(&mut self) -> Room<'_, T> {
         if self.items.len() < self.len + ROOM {
@@ -130,14 +134,14 @@ impl<T: Copy + Default> Buffer<T> {
     }
 }
 
-/// Room at the end of a list.
+/// Room for one mask's items at the end of a list.
 pub(crate) struct Room<'l, T> {
     slots: &'l mut [T; ROOM],
     len: &'l mut usize,
 }
 
 impl<T: Copy> Room<'_, T> {
-    /// Appends an item for every bit set in a mask, lowest first.
+    /// Appends an item for every bit set in `mask`, lowest first.
     #[inline(always)]
     pub(crate) fn push_bits(self, mask: u64, item: impl Fn(u32) -> T) {
         let mut rest = mask;
@@ -155,7 +159,7 @@ impl<T: Copy> Room<'_, T> {
         *self.len += mask.count_ones() as usize;
     }
 
-    /// Appends an item for every bit set in a mask of which `keep` says so.
+    /// Appends an item for every bit set in `mask` if `keep` returns true for it, lowest first.
     #[inline(always)]
     pub(crate) fn push_bits_if(self, mask: u64, item: impl Fn(u32) -> T, keep: impl Fn(T) -> bool) {
         let mut rest = mask;

@@ -1,41 +1,12 @@
-//! Where vertices and triangles, and edges and edges, are closest: four pairs side by side in double precision, with proven bounds; and
-//! eight in single precision, where only their bounds are wanted.
+//! Closest points of elements (vertex and triangle, or two edges), and proven bounds of their
+//! distance.
 //!
-//! **Any points bound the distance from above, any direction from below.** Points of two elements are at least as far apart as these are.
-//! And for any r, however it was found, the elements are at least as far apart as their projections on it: the least of r.(p - q) over
-//! corners p of the one and q of the other, divided by |r|. So points are looked for in plain arithmetic (of each end and edge, and of the
-//! insides), those that are nearest are taken, and r is the way between them: where they are right, both bounds are the distance but for
-//! rounding. Where they are not, as for slivers, the bounds are apart and say so.
-//!
-//! **Rounding.** Let u = 2^-53, and S be the sum of the absolute values of the coordinates of t and both sides, all differences of corners,
-//! where the way is r = t + x e + y f with x and y of magnitude at most 1. Each coordinate of a computed r is off by at most 3 u of its
-//! part of t and 4 u of its parts of e and f; and where the sum of x and y was rounded to 1, it is at most 1 + u, and the point is off
-//! by another u of both. So |r| is off by less than 6 u S. A length adds 4 u of itself, which is at most 4 u S (1 + 6 u): upper bounds allow
-//! 20 u S. In projections a difference of corners is off by u of itself, a dot product by 3 u of its terms, whose sum is at most |r| S; a
-//! division and the length add 6 u: lower bounds allow 20 u S too. Results below the normal range are off by less than 2^-1020 each: where S
-//! is at least 2^-200, that is nothing beside 2^-250 S, even in products of four. Where S is smaller, nothing is sure. As r is a
-//! direction only if it is no rounding error, the lower bound is none where |r| is below 20 u S.
-//!
-//! **Elements that nearly touch.** The way between points that are close to each other is a difference of numbers that are large beside it, so
-//! as a direction it is off by u S / |r|, and what ends of the elements project on it by that much of S. Where insides are nearest, the cross
-//! product of both edges, or of two sides, is off by u as a direction, whatever the distance is: `along_normal` has the lower bound
-//! that it gives. With differences that are off by u, 3 u |r| S for the dot product, and division, length and subtraction as above, 20 u S are
-//! allowed. The length of r is at least 2^-30 of its square at most, S^2: no product of four is a rounding error below the normal range.
-//!
-//! **Eight in single precision.** The same with u = 2^-24. Only t, e and f are differences of corners, in double precision where these are,
-//! and rounded to `f32`: off by (1 + 2^-28) u of themselves. Others that projections need are computed from them: each is off by at most
-//! u S for what it is made of, and 2 u S for two roundings on the way. So a projection is off by 3 u |r| S and by 3 u |r| S for the dot product,
-//! and with 6 u S for division, length and subtraction a lower bound by 12 u S; that of |r| is as above. 20 u S are allowed again. Products of
-//! two below the normal range are off by 2^-126 each, a length by 2^-62: nothing beside u S where S is at least 2^-30. Where it is
-//! at most 2^60, neither a square nor a projection is beyond `f32`; products of four may be, and then an inside is not found, or
-//! some point is. Elsewhere nothing is sure.
-//!
-//! **Triangles.** Two triangles that do not intersect are as far apart as the nearest of their fifteen pairs of elements. The way between
-//! the points of that pair bounds the distance of the triangles too, from below by the projections of all their corners: with S for the
-//! largest sum of the absolute coordinates of a difference of two of these, with as much room for rounding. Where they intersect, no
-//! direction parts them, and the bounds are apart. Any direction that is known bounds them from below without a look at elements:
-//! of corners relative to one of them a projection is off by 4 u of the sum of its coordinates, so `apart_along` by less than 7 u S, with S for
-//! the sum of the largest such sums of either triangle; it allows 20 u S too.
+//! Four pairs are decided side by side in double precision, or eight in single precision where only
+//! the bounds are wanted. **Any two points bound the distance from above, any direction from
+//! below**: the elements are at least as far apart as their projections on it. So points are
+//! searched in plain arithmetic, on ends, edges and insides, and the way between the nearest ones
+//! is the direction. If the points are right, the two bounds differ only by rounding. If not, as
+//! for slivers, the bounds are far apart and say so.
 
 use super::coordinate::{Coordinate, eight_differences, turn};
 use super::vector::{Vector, cross, difference, dot, minus, plus, square_of, times};
@@ -45,67 +16,67 @@ use fearless_simd::{Select, Simd, f32x8, f64x4};
 use pliant_exact::{ELEMENT_PAIRS, FIRST_OF_EDGES, four_corners, is_swapped};
 
 /// The four corners of a pair of elements, each with padding.
-pub(crate) type Corners<'q, S> = [&'q [S; 4]; 4];
+pub(crate) type FourCorners<'q, S> = [&'q [S; 4]; 4];
 
-/// Where four pairs of elements are closest.
+/// Closest points of four pairs of elements, and bounds of the distances.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct FourClosest {
-    /// As `pliant_exact::distance::Closest` has it.
+    /// Parameters of the two points, as `pliant_exact::distance::Closest` has them.
     pub(crate) along: [[f64; 4]; 2],
-    /// The way from the second to the first.
+    /// Vector from the second point to the first, by axis.
     pub(crate) way: [[f64; 4]; 3],
-    /// Its length.
+    /// Length of `way`.
     pub(crate) distance: [f64; 4],
-    /// The true distance is at least that. Perhaps less than none.
+    /// Lower bound of the true distance. It may be negative.
     pub(crate) least: [f64; 4],
-    /// It is at most that. Perhaps infinite.
+    /// Upper bound of the true distance. It may be infinite.
     pub(crate) most: [f64; 4],
 }
 
-/// Numbers side by side, and what is known of their rounding.
+/// Floating-point lanes, and the constants of their rounding bounds.
 trait Lanes<I: Simd>: SimdFloat<I> {
-    /// 20 u.
+    /// Allowed error: 20 u, relative to the sum of coordinates.
     const ERROR: Self::Element;
-    /// Below this sum of coordinates nothing is sure, and above that.
+    /// Least sum of coordinates for which anything is sure; `LARGEST` is the largest.
     const SMALLEST: Self::Element;
     const LARGEST: Self::Element;
-    /// The insides of two edges are taken only where they are nearer than any end by more than this part of the square, which for
-    /// parallel ones they are not.
+    /// Factor on the squared distance of the nearest end: the insides of two edges are taken only
+    /// if they are nearer than that. Parallel edges never are.
     const NEARER: Self::Element;
 
-    /// The same number in all.
+    /// One number in all lanes.
     #[inline(always)]
     fn all(i: I, x: Self::Element) -> Self {
         Self::simd_from(i, x)
     }
 }
 
-/// 20 u of double precision.
+/// Allowed relative error in double precision: 20 u.
 const ERROR: f64 = 20.0 * (f64::EPSILON / 2.0);
 
-/// 2^-200.
+/// Least sum of coordinates in double precision: 2^-200.
 const SMALLEST: f64 = f64::from_bits((1023 - 200) << 52);
 
 impl<I: Simd> Lanes<I> for f64x4<I> {
     const ERROR: f64 = ERROR;
     const SMALLEST: f64 = SMALLEST;
-    /// Coordinates are of the range of `f32`.
+    /// No limit: coordinates are in the range of `f32`.
     const LARGEST: f64 = f64::INFINITY;
-    /// By 2^-40.
+    /// Nearer by a part of 2^-40.
     const NEARER: f64 = 1.0 - f64::from_bits((1023 - 40) << 52);
 }
 
 impl<I: Simd> Lanes<I> for f32x8<I> {
     const ERROR: f32 = 20.0 * (f32::EPSILON / 2.0);
-    /// 2^-30.
+    /// Least sum of coordinates in single precision: 2^-30.
     const SMALLEST: f32 = f32::from_bits((127 - 30) << 23);
-    /// 2^60.
+    /// Largest sum of coordinates in single precision: 2^60.
     const LARGEST: f32 = f32::from_bits((127 + 60) << 23);
-    /// By 2^-12.
+    /// Nearer by a part of 2^-12.
     const NEARER: f32 = 1.0 - f32::from_bits((127 - 12) << 23);
 }
 
-/// Where some pairs are closest, in registers: as `FourClosest` has it.
+/// Closest points and bounds of some pairs, in registers. Fields are as in `FourClosest`.
 struct Found<V> {
     along: [V; 2],
     way: Vector<V>,
@@ -114,14 +85,14 @@ struct Found<V> {
     most: V,
 }
 
-/// The nearest points so far: how far along, and the square of their distance.
+/// Nearest points so far: their parameters, and the square of their distance.
 struct Best<V> {
     along: [V; 2],
     square: V,
 }
 
 impl<V> Best<V> {
-    /// Takes others where a mask says so.
+    /// Replaces the points in the lanes of a mask.
     #[inline(always)]
     fn take<I: Simd>(&mut self, mask: V::Mask, along: [V; 2], square: V)
     where
@@ -134,7 +105,7 @@ impl<V> Best<V> {
         self.square = mask.select(square, self.square);
     }
 
-    /// Takes others where they are nearer.
+    /// Replaces the points in the lanes where the new ones are nearer.
     #[inline(always)]
     fn take_nearer<I: Simd>(&mut self, along: [V; 2], square: V)
     where
@@ -145,13 +116,15 @@ impl<V> Best<V> {
     }
 }
 
-/// Where four pairs of elements are closest: edges a0 a1 and b0 b1, or points p and triangles a b
-/// c; corners in this order.
+/// Closest points of four pairs of elements: edges `a0 a1` and `b0 b1`, or points p and triangles
+/// `a b c`.
+///
+/// Corners are in this order.
 #[inline(always)]
 pub(crate) fn of_elements<I: Simd, S: Real>(
     i: I,
     are_edges: bool,
-    pairs: &[Corners<S>; 4],
+    pairs: &[FourCorners<S>; 4],
 ) -> FourClosest {
     let [p, q, r, s] = [
         lanes(i, pairs, 0),
@@ -170,8 +143,9 @@ pub(crate) fn of_elements<I: Simd, S: Real>(
     found.store()
 }
 
-/// Where points and triangles a b c are closest, by differences: of the points from a, b and c; of
-/// b and c from a, and of c from b.
+/// Closest points of points and triangles `a b c`, from differences of corners.
+///
+/// The first three are the point less a, b and c; the others are b - a, c - a and c - b.
 #[inline(always)]
 fn vertices_and_triangles<I: Simd, V: Lanes<I>>(
     i: I,
@@ -188,11 +162,11 @@ fn vertices_and_triangles<I: Simd, V: Lanes<I>>(
     let (s, square) = on_segment(t, e2);
     best.take_nearer([zero, s], square);
     let (s, square) = on_segment(of_b, e3);
-    // Of x and 1 - x the sum is 1 exactly: the first corner counts nothing.
+    // The sum of x and 1 - x is exactly 1, so the first corner has weight zero.
     let x = one - s;
     best.take_nearer([x, one - x], square);
 
-    // The foot on the plane, by Cramer's rule.
+    // Foot of the perpendicular on the plane, by Cramer's rule.
     let (d11, d12, d22) = (dot(e1, e1), dot(e1, e2), dot(e2, e2));
     let (t1, t2) = (dot(t, e1), dot(t, e2));
     let whole = d11 * d22 - d12 * d12;
@@ -208,8 +182,10 @@ fn vertices_and_triangles<I: Simd, V: Lanes<I>>(
     bounds(i, [x, y], way, least, [t, e1, e2])
 }
 
-/// Where edges are closest, by differences: of the ends of the first from those of the second, and
-/// of the ends of either.
+/// Closest points of pairs of edges, from differences of corners.
+///
+/// The first four are ends of the first edge less ends of the second; the others are each edge's
+/// own direction.
 #[inline(always)]
 fn edges_and_edges<I: Simd, V: Lanes<I>>(
     i: I,
@@ -220,7 +196,7 @@ fn edges_and_edges<I: Simd, V: Lanes<I>>(
     let one = V::all(i, 1_u8.into());
     let back = times(V::all(i, (-1_i8).into()), e);
 
-    // Ends of the first on the second, and of the second on the first.
+    // Ends of the first edge on the second, then ends of the second on the first.
     let (y, square) = on_segment(t, f);
     let mut best = Best {
         along: [zero, y],
@@ -233,7 +209,7 @@ fn edges_and_edges<I: Simd, V: Lanes<I>>(
     let (x, square) = on_segment(t01, back);
     best.take_nearer([x, one], square);
 
-    // The feet of the common normal, by Cramer's rule.
+    // Feet of the common normal, by Cramer's rule.
     let (d11, d12, d22) = (dot(e, e), dot(e, f), dot(f, f));
     let (t1, t2) = (dot(t, e), dot(t, f));
     let whole = d11 * d22 - d12 * d12;
@@ -252,23 +228,33 @@ fn edges_and_edges<I: Simd, V: Lanes<I>>(
     bounds(i, [x, y], way, least, [t, e, f])
 }
 
-/// Where two triangles are closest, unless they intersect.
+/// Closest points of two triangles, and bounds of their distance, if they do not intersect.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TwoClosest {
-    /// The nearest pair of elements, by its number, and how far along these.
+    /// Number of the nearest pair of elements, and the parameters of its two points.
     pub(crate) which: usize,
     pub(crate) along: [f64; 2],
-    /// The way from the second triangle to the first.
+    /// Vector from the second triangle to the first.
     pub(crate) way: [f64; 3],
-    /// Its length.
+    /// Length of `way`.
     pub(crate) distance: f64,
-    /// The true distance is at least that. Perhaps less than none, which it is where they intersect.
+    /// Lower bound of the true distance. It may be negative, and is where the triangles intersect.
     pub(crate) least: f64,
-    /// It is at most that. Perhaps infinite.
+    /// Upper bound of the true distance. It may be infinite.
     pub(crate) most: f64,
 }
 
-/// Where two triangles are closest, by their corners.
+/// Closest points of two triangles, given their corners.
+///
+/// Triangles that do not intersect are as far apart as the nearest of their fifteen pairs of
+/// elements. The way between the points of that pair is a direction, and the projections of all
+/// corners on it bound the distance from below. If the triangles intersect, no direction separates
+/// them, and the two bounds are far apart.
+///
+/// # Rounding
+///
+/// As in [`bounds`], with S for the largest sum of absolute coordinates of a difference of two
+/// corners, one of either triangle.
 #[inline(always)]
 pub(crate) fn of_triangles<I: Simd, S: Real>(
     i: I,
@@ -327,13 +313,30 @@ pub(crate) fn of_triangles<I: Simd, S: Real>(
     nearest
 }
 
-/// Which of eight pairs are surely at most so far apart, and which surely further, as bits; what is
-/// in neither is for `of_elements`, or for exact arithmetic.
+/// Decides in single precision which of eight pairs are at most `distance` apart, and which are
+/// further apart.
+///
+/// Returns two bit masks of the pairs for which this is certain: near, then far. `of_elements` or
+/// exact arithmetic decides the others.
+///
+/// # Rounding
+///
+/// As in [`bounds`], with u = 2^-24. Only t, e and f are differences of corners. They are taken in
+/// the caller's precision and rounded to `f32`, so they are off by `(1 + 2^-28) u` of themselves.
+/// Projections need other differences, which are computed from them. Each is off by at most u S
+/// from its terms, and by 2 u S from two roundings. So a projection is off by `3 u |r| S`, and by
+/// another `3 u |r| S` for the dot product. With 6 u S for division, length and subtraction, a
+/// lower bound is off by 12 u S. The bound of |r| is as in [`bounds`]. 20 u S are allowed again.
+///
+/// Below the normal range a product of two is off by 2^-126, a length by 2^-62. That is nothing
+/// beside u S where S is at least 2^-30. Where S is at most 2^60, no square and no projection
+/// overflows `f32`. Products of four may overflow; then an inside is missed, or some other point is
+/// taken. For other sizes of S nothing is certain.
 #[inline(always)]
 pub(crate) fn decide_eight<I: Simd, S: Coordinate>(
     i: I,
     are_edges: bool,
-    pairs: &[Corners<S>; 8],
+    pairs: &[FourCorners<S>; 8],
     distance: f64,
 ) -> [u64; 2] {
     let less = |k: usize, l: usize| eight_differences(i, |lane| [pairs[lane][k], pairs[lane][l]]);
@@ -360,13 +363,27 @@ pub(crate) fn decide_eight<I: Simd, S: Coordinate>(
     [is_close.to_bitmask(), is_far.to_bitmask()]
 }
 
-/// The direction of the common normal of two elements, from the second to the first and of length 1, and how far they at least are apart along
-/// it; none where it is hardly a direction, or nothing is sure.
+/// Unit direction of the common normal of two elements, and a lower bound of their distance along
+/// it.
+///
+/// The direction points from the second element to the first. None where it is hardly a direction,
+/// or where nothing is sure.
+///
+/// This is for elements that nearly touch. The way between two close points is a difference of
+/// numbers that are large beside it. As a direction it is off by `u S / |r|`, and the projections
+/// of the elements' ends are off by that part of S. Where insides are nearest, the cross product of
+/// both edges, or of two sides, is off as a direction by u only, at any distance.
+///
+/// # Rounding
+///
+/// Allowed are 20 u S, for differences that are off by u, `3 u |r| S` for the dot product, and
+/// division, length and subtraction as in [`bounds`]. The length of r is at least 2^-30 of its
+/// largest possible value S^2. So no product of four is a rounding error below the normal range.
 pub(crate) fn along_normal<S: Real>(
     are_edges: bool,
-    [p, q, r, s]: &Corners<S>,
+    [p, q, r, s]: &FourCorners<S>,
 ) -> Option<([f64; 3], f64)> {
-    // Two sides, and all ways from a corner of the second to one of the first.
+    // Two sides, and all ways from a corner of the second element to a corner of the first.
     let (e, f, between) = if are_edges {
         let between = [(p, r), (q, r), (p, s), (q, s)];
         (difference(q, p), difference(s, r), between)
@@ -388,8 +405,17 @@ pub(crate) fn along_normal<S: Real>(
     Some((direction, least / length - ERROR * sum))
 }
 
-/// How far two triangles at least are apart along a direction of length 1, but for less than 2^-40 of it, from the second to the first:
-/// by their corners. Perhaps less than nothing.
+/// Lower bound of the distance of two triangles along a direction from the second to the first,
+/// from their corners.
+///
+/// The direction has length 1, up to an error of less than 2^-40. The bound may be negative. No
+/// pair of elements is looked at.
+///
+/// # Rounding
+///
+/// Let S be the largest sum of coordinates of a corner of one triangle, plus the largest of the
+/// other. Corners are relative to one of them. A projection of such a corner is off by 4 u of the
+/// sum of its coordinates. So the result is off by less than 7 u S. 20 u S are allowed.
 #[inline(always)]
 pub(crate) fn apart_along<S: Real>(direction: [f64; 3], a: &[&[S; 4]; 3], b: &[&[S; 4]; 3]) -> f64 {
     let origin = b[0];
@@ -414,19 +440,40 @@ pub(crate) fn apart_along<S: Real>(direction: [f64; 3], a: &[&[S; 4]; 3], b: &[&
     (least - most - allowed) * (1.0 - f64::powi(0.5, 39))
 }
 
-/// How far along a segment from 0 to e the point is that is nearest to t, from 0 to 1; and the square of their distance.
+/// Parameter, from 0 to 1, of the point nearest to `t` on the segment from 0 to `e`; and the square
+/// of their distance.
 #[inline(always)]
 fn on_segment<I: Simd, V: Lanes<I>>(t: Vector<V>, e: Vector<V>) -> (V, V) {
     let i = t[0].token();
     let (zero, one) = (V::all(i, 0_u8.into()), V::all(i, 1_u8.into()));
     let (part, whole) = (dot(t, e), dot(e, e));
-    // Of a segment that is a point, both are zero.
+    // A segment that is a point has zero for both.
     let inside = part.simd_lt(whole).select(part / whole, one);
     let s = part.simd_gt(zero).select(inside, zero);
     (s, square_of(plus(t, times(zero - s, e))))
 }
 
-/// Both bounds of the distance, of a way that was computed from three differences of corners, and its least projection of such.
+/// Bounds of the distance, from a way computed out of three differences of corners, and from its
+/// least projection.
+///
+/// # Rounding
+///
+/// Let u = 2^-53. The way is `r = t + x e + y f`, with x and y of magnitude at most 1, where t, e
+/// and f are differences of corners. Let S be the sum of the absolute values of the coordinates of
+/// t, e and f.
+///
+/// - A coordinate of r is off by at most `3 u` of its part of t, and `4 u` of its parts of e and f.
+/// - If the sum of x and y was rounded to 1, it is at most `1 + u`. The point is then off by
+///   another u of both. So `|r|` is off by less than `6 u S`.
+/// - A length adds `4 u` of itself, at most `4 u S (1 + 6 u)`. Upper bounds allow `20 u S`.
+/// - In a projection a difference of corners is off by u of itself. A dot product is off by `3 u`
+///   of its terms, whose sum is at most `|r| S`.
+/// - Division and length add `6 u`. Lower bounds allow `20 u S` too.
+///
+/// Results below the normal range are off by less than 2^-1020 each. Where S is at least 2^-200,
+/// that is nothing beside `2^-250 S`, even in products of four. Where S is smaller, nothing is
+/// sure. A way that is a rounding error is no direction, so there is no lower bound where `|r|` is
+/// below `20 u S`.
 #[inline(always)]
 fn bounds<I: Simd, V: Lanes<I>>(
     i: I,
@@ -473,9 +520,9 @@ impl<I: Simd> Found<f64x4<I>> {
     }
 }
 
-/// The same corner of four pairs, side by side.
+/// Transposes corner `which` of four pairs into lanes.
 #[inline(always)]
-fn lanes<I: Simd, S: Real>(i: I, pairs: &[Corners<S>; 4], which: usize) -> Vector<f64x4<I>> {
+fn lanes<I: Simd, S: Real>(i: I, pairs: &[FourCorners<S>; 4], which: usize) -> Vector<f64x4<I>> {
     let load = |lane: usize| {
         let [x, y, z, w] = *pairs[lane][which];
         f64x4::load_array(i, [x.to_f64(), y.to_f64(), z.to_f64(), w.to_f64()])
@@ -491,7 +538,7 @@ mod tests {
     use pliant_oracle::{Class, Random, compare_distance, compare_dot, compare_length};
     use std::cmp::Ordering;
 
-    /// What is promised of distances.
+    /// Promised accuracy of distances.
     const ACCURACY: f64 = f64::from_bits((1023 - 30) << 52);
 
     /// Eight pairs of elements of a hard pair of triangles, and the corners of either.
@@ -510,7 +557,7 @@ mod tests {
         pairs.map(of).collect()
     }
 
-    /// A pair in each lane.
+    /// Closest points of four pairs, one in each lane.
     fn four(i: impl Simd, all: [&Primitives; 4]) -> FourClosest {
         let corners = all.map(|elements| {
             let (Primitives::VertexTriangle(four) | Primitives::EdgeEdge(four)) = elements;
@@ -564,8 +611,10 @@ mod tests {
         );
     }
 
-    /// What single precision says of a pair at a distance, in some lane, by all instructions: whether it is surely as near as that, and
-    /// whether surely further apart.
+    /// Decision of single precision on a pair at a distance, in some lane: whether it is surely
+    /// that near, and whether surely further apart.
+    ///
+    /// Asserts that all instruction sets agree.
     fn decided<S: Coordinate>(
         corners: &[[S; 4]; 4],
         others: &[[S; 4]; 4],
@@ -585,14 +634,15 @@ mod tests {
             .map(|mask| mask >> lane & 1 == 1)
     }
 
-    /// Counts pairs at distances round their own: decided, which is compared with the oracle, and left open.
+    /// Counts pairs that are decided, and pairs that are left open, at distances round their own.
+    /// Decisions are compared with the oracle.
     fn check_eight<S: Coordinate>(of: fn(f64) -> S, seed: u64) -> [usize; 2] {
         let mut random = Random::new(seed);
         let [mut decisions, mut open] = [0; 2];
         let mut before = None;
         for round in 0..5_000 {
             let class = Class::ALL[round % Class::ALL.len()];
-            // Those of ordinary size at other magnitudes too, where nothing is sure.
+            // Pairs of ordinary size are scaled to other magnitudes too, where nothing is sure.
             let scale = match class {
                 Class::Scales
                 | Class::Subnormal
@@ -645,7 +695,8 @@ mod tests {
 
     #[test]
     fn eight_well_shaped_pairs_are_decided_to_a_few_units() {
-        // Of triangles and edges a unit long and as far apart, single precision leaves open no more than its rounding.
+        // For triangles and edges a unit long and as far apart, single precision leaves open no
+        // more than its rounding.
         let mut random = Random::new(48);
         let mut unit = || f64::from(random.below(1 << 20)) / f64::from(1 << 20);
         for round in 0..4_000 {
@@ -708,7 +759,8 @@ mod tests {
 
     #[test]
     fn insides_that_nearly_touch_are_measured_without_integers() {
-        // At a distance of 2^-12 to 2^-14 the way between points is often no direction that is good enough, and the normal is.
+        // At distances of 2^-12 to 2^-14 the way between points is often too poor a direction, and
+        // the normal is good enough.
         let mut random = Random::new(51);
         let mut unit = || f64::from(random.below(1 << 20)) / f64::from(1 << 20);
         let mut by_way = 0;
@@ -730,7 +782,7 @@ mod tests {
                     [0.0, 2.0, 0.0],
                 ]
             };
-            // The same place in any position: turned about two axes, and moved.
+            // The same pair in any position: turned about two axes, and moved.
             let [u, v] = [unit(), unit()].map(|x| 6.0 * x);
             let offset = [unit(), unit(), unit()];
             let points = points.map(|[x, y, z]: [f64; 3]| {
@@ -765,7 +817,7 @@ mod tests {
             let [of_a, of_b] = padded.each_ref().map(<[_; 3]>::each_ref);
             let measured = dispatch!(Instructions::widest(), i => of_triangles(i, &of_a, &of_b));
             let [x, y, z] = measured.way;
-            // Of any direction, the one between closest points among them.
+            // Any direction, the way between closest points among them.
             let length = (x * x + y * y + z * z).sqrt();
             let directions = [
                 [x, y, z].map(|x| x / length),
@@ -800,7 +852,7 @@ mod tests {
 
     #[test]
     fn points_and_direction_are_as_far_apart_as_is_said() {
-        // Of both ways to find them, where one is certain of itself.
+        // Both ways to find a bound, where one of them is certain.
         let mut random = Random::new(43);
         let mut checked = [0; 2];
         for round in 0..4_000 {

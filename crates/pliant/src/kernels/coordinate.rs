@@ -1,8 +1,8 @@
-//! A point in one register, and how points become lanes.
+//! Points in registers, and eight points transposed into lanes.
 //!
-//! A register holds a point's three coordinates and padding. Eight points turned by a quarter (their x in
-//! one register, their y in the next, their z in a third) are lanes, which is how boxes are kept and how eight decisions are
-//! made at once.
+//! A register holds a point's three coordinates and padding. Eight such points transposed are three
+//! registers: all x, all y and all z. Boxes are kept in this form, and eight decisions are made at
+//! once on it.
 
 use super::vector::{Vector, minus};
 use crate::geometry::{OUTWARD, Points, Real};
@@ -10,25 +10,27 @@ use crate::ids::TreeVertex;
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x4, f32x8, f64x4};
 
-/// A coordinate type whose points fit registers of four.
+/// Coordinate type whose points fit registers of four.
 pub(crate) trait Coordinate: Real {
-    /// Four coordinates.
+    /// Register of four coordinates.
     type Four<I: Simd>: SimdBase<I, Element = Self, Array = [Self; 4]>;
 
-    /// Two rows, each number rounded to the nearest f32.
+    /// Converts two registers to `f32`, each number rounded to nearest.
     fn rounded<I: Simd>(two: [Self::Four<I>; 2]) -> [f32x4<I>; 2];
 
-    /// Two points relative to the origin, each number rounded to the nearest f64 and then to the
-    /// nearest f32; as they are, where boxes are exact.
+    /// Two points relative to the origin, rounded to the nearest `f64` and then to the nearest
+    /// `f32`.
+    ///
+    /// Where boxes are exact, the points are returned as they are.
     fn relative<I: Simd>(two: [Self::Four<I>; 2], origin: &[f64; 4]) -> [f32x4<I>; 2];
 
-    /// Four numbers from memory: a point and padding.
+    /// Loads four numbers: a point and padding.
     #[inline(always)]
     fn load<I: Simd>(i: I, four: &[Self; 4]) -> Self::Four<I> {
         Self::Four::load_array_ref(i, four)
     }
 
-    /// The corners lo and hi of a box in f32, relative to the origin and rounded outward.
+    /// The corners of a box in `f32`, relative to the origin and rounded outward.
     #[inline(always)]
     fn outward<I: Simd>(
         lo: Self::Four<I>,
@@ -40,7 +42,7 @@ pub(crate) trait Coordinate: Real {
             return (lo, hi);
         }
         let i = lo.token();
-        // As `Real::round_down` and `round_up` of f64 say, lane by lane.
+        // As `Real::round_down` and `round_up` of f64 define it, lane by lane.
         let lo = lo.min(f32x4::splat(i, f32::MAX));
         let hi = hi.max(f32x4::splat(i, -f32::MAX));
         (
@@ -49,7 +51,8 @@ pub(crate) trait Coordinate: Real {
         )
     }
 
-    /// The same corners, rounded to the nearest; what is beyond f32 is the largest.
+    /// The corners of a box in `f32`, relative to the origin, rounded to nearest and clamped to
+    /// finite numbers.
     #[inline(always)]
     fn nearest<I: Simd>(
         lo: Self::Four<I>,
@@ -65,9 +68,11 @@ pub(crate) trait Coordinate: Real {
         (lo.max(least).min(most), hi.max(least).min(most))
     }
 
-    /// Differences of points as lanes, each coordinate rounded to the nearest f32 (of f64 to the
-    /// nearest f64 before): for every (a, b) corner a minus corner b. `corner` gives a corner by
-    /// its number and lane, of eight things that have `count` corners each, at most eight.
+    /// Differences of corners as lanes: corner a less corner b for every (a, b) in `of`.
+    ///
+    /// Each coordinate is rounded to the nearest `f32`, of `f64` to the nearest `f64` before.
+    /// `corner` returns a corner by number and lane. There are eight items with `count` corners
+    /// each, at most eight.
     #[inline(always)]
     fn differences<'p, I: Simd, const D: usize>(
         i: I,
@@ -84,8 +89,9 @@ pub(crate) trait Coordinate: Real {
     }
 }
 
-/// The differences of two points each as lanes. They are taken before anything is rounded, because
-/// an f32 may not hold the points.
+/// Differences of two points in each of eight lanes.
+///
+/// They are computed before anything is rounded, because an `f32` may not hold the points.
 #[inline(always)]
 pub(super) fn eight_differences<'p, I: Simd, S: Coordinate>(
     i: I,
@@ -100,15 +106,15 @@ pub(super) fn eight_differences<'p, I: Simd, S: Coordinate>(
     lanes_of(eight)
 }
 
-/// The corners of eight pairs of triangles A and B; of A 0, 1 and 2, of B 3, 4 and 5.
+/// Corners of eight pairs of triangles A and B: numbers 0, 1 and 2 are A's, 3, 4 and 5 are B's.
 #[derive(Clone, Copy)]
-pub(crate) struct Corners<'p, S> {
+pub(crate) struct TrianglePairs<'p, S> {
     pub(crate) positions: [&'p Points<S>; 2],
     pub(crate) vertices: [[TreeVertex; 6]; 8],
 }
 
-impl<S: Coordinate> Corners<'_, S> {
-    /// Differences of the corners of each pair.
+impl<S: Coordinate> TrianglePairs<'_, S> {
+    /// Differences of the corners of each pair, for every (a, b) in `of`.
     #[inline(always)]
     pub(super) fn differences<I: Simd, const D: usize>(
         &self,
@@ -122,7 +128,7 @@ impl<S: Coordinate> Corners<'_, S> {
     }
 }
 
-/// Eight vectors as lanes: their x, their y, their z.
+/// Eight vectors as lanes: all x, all y, all z.
 pub(crate) type Vectors<I> = Vector<f32x8<I>>;
 
 impl Coordinate for f32 {
@@ -145,7 +151,8 @@ impl Coordinate for f32 {
         corner: impl Fn(usize, usize) -> &'p [Self; 4],
         of: [(usize, usize); D],
     ) -> [Vectors<I>; D] {
-        // Lanes first, differences of lanes then: a turn for every corner instead of one for every difference.
+        // First lanes, then differences of lanes: a transposition for every corner instead of one
+        // for every difference.
         let zero = f32x8::splat(i, 0.0);
         let mut points = [[zero; 3]; 8];
         for which in 0..count {
@@ -180,7 +187,7 @@ impl Coordinate for f64 {
     }
 }
 
-/// Eight points as lanes: their x, their y, their z.
+/// Transposes eight points into lanes: all x, all y, all z.
 #[inline(always)]
 pub(super) fn lanes_of<I: Simd>(points: [f32x4<I>; 8]) -> Vectors<I> {
     let [a, b, c, d, e, f, g, h] = points;
@@ -193,10 +200,11 @@ pub(super) fn lanes_of<I: Simd>(points: [f32x4<I>; 8]) -> Vectors<I> {
     ]
 }
 
-/// Four points as x, y, z.
+/// Transposes four points: all x, all y, all z.
 #[inline(always)]
 pub(super) fn turn<I: Simd, V: SimdBase<I>>([a, b, c, d]: [V; 4]) -> [V; 3] {
-    // ax cx ay cy, az cz .. ..; bx dx by dy, ...; zipped again: ax bx cx dx, ay by cy dy, az bz cz dz.
+    // First zip: ax cx ay cy, az cz ..; bx dx by dy, ... Second zip: ax bx cx dx, ay by cy dy, az
+    // bz cz dz.
     let (ac, bd) = (a.zip_low(c), b.zip_low(d));
     let (ac_high, bd_high) = (a.zip_high(c), b.zip_high(d));
     [ac.zip_low(bd), ac.zip_high(bd), ac_high.zip_low(bd_high)]

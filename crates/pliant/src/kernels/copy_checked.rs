@@ -1,13 +1,15 @@
-//! The one pass over positions that the caller brings: copied, bounded, and checked to be numbers in range.
+//! One pass over the caller's positions: copied, bounded, and checked to be finite and in range.
 
 use super::{Coordinate, Instructions, dispatch};
 use crate::geometry::{Bounds, larger, smaller};
 use fearless_simd::Simd;
 
-/// Eight points are twenty-four numbers: as many as three registers hold, whatever their width.
+/// Points of one step: 8 points are 24 numbers, which are three registers of any width.
 const POINTS: usize = 8;
 
-/// Copies points, and returns their bounds, or none if a coordinate is out of range. The slices are equally long.
+/// Copies points and returns their bounds, or none if a coordinate is out of range. O(points).
+///
+/// The slices have the same length.
 pub(crate) fn copy_checked<S: Coordinate>(
     instructions: Instructions,
     from: &[[S; 3]],
@@ -16,7 +18,8 @@ pub(crate) fn copy_checked<S: Coordinate>(
     dispatch!(instructions, i => in_lanes::<_, _, true>(i, from, to))
 }
 
-/// The same without copying.
+/// Checks points without copying them. Returns their bounds, or none if a coordinate is out of
+/// range.
 pub(crate) fn check<S: Coordinate>(
     instructions: Instructions,
     points: &[[S; 3]],
@@ -32,7 +35,7 @@ fn in_lanes<I: Simd, S: Coordinate, const COPY: bool>(
 ) -> Option<Bounds<S>> {
     let mut lo = [S::INFINITY; 3 * POINTS];
     let mut hi = [S::NEG_INFINITY; 3 * POINTS];
-    // Bounds pass a NaN over, but 0 x is NaN for NaN and infinities, and stays so in a sum.
+    // Bounds skip a NaN, but 0 x is NaN for NaN and infinities, and stays NaN in a sum.
     let mut zeros = [S::default(); 3 * POINTS];
     let mut include = |lane: usize, x: S| {
         lo[lane] = smaller(lo[lane], x);
@@ -74,7 +77,7 @@ fn in_lanes<I: Simd, S: Coordinate, const COPY: bool>(
 mod tests {
     use super::*;
 
-    /// What checking and copying mean.
+    /// Checks and bounds in plain code, the definition of both kernels.
     fn plain<S: Coordinate>(from: &[[S; 3]]) -> Option<Bounds<S>> {
         let mut bounds = Bounds::EMPTY;
         from.iter().for_each(|&point| bounds.include(point));
@@ -82,7 +85,7 @@ mod tests {
         good.then_some(bounds)
     }
 
-    /// Of every length round a whole number of registers, with every bad number in every place.
+    /// Tries every length round a whole number of registers, with every bad number in every place.
     fn compare<S: Coordinate>(number: impl Fn(f64) -> S, bad: &[S]) {
         let points: Vec<[S; 3]> = (0..35)
             .map(|at| [at * 7 % 5, 3 - at, at * at % 11].map(|x| number(f64::from(x) * 1.5 - 2.25)))

@@ -1,4 +1,4 @@
-//! Boxes from points: of a run of points and some others, of twelve points, and of triangles.
+//! Bounding boxes: of a run of points and some others, of twelve points, and of triangles.
 
 use super::Coordinate;
 use super::boxes::BoxLanes;
@@ -8,13 +8,14 @@ use crate::ids::TreeVertex;
 use fearless_simd::f32x4;
 use fearless_simd::prelude::*;
 
-/// A box in two registers: its lower corner and its upper, each with padding.
+/// A box in two registers: its lower and its upper corner, each with padding.
 pub(crate) type Extent<I> = (f32x4<I>, f32x4<I>);
 
-/// As many vertices as most leaves have: eight triangles of a surface have ten to twelve.
+/// Number of vertices that most leaves have at most: eight triangles of a surface have ten to
+/// twelve.
 pub(crate) const TWELVE: usize = 12;
 
-/// Puts the first `count` of these boxes side by side.
+/// Stores the first `count` boxes side by side in lanes. Other lanes are empty.
 #[inline(always)]
 pub(crate) fn store<I: Simd, const N: usize>(
     boxes: [Extent<I>; 8],
@@ -35,7 +36,7 @@ pub(crate) fn store<I: Simd, const N: usize>(
     }
 }
 
-/// Four boxes as lanes, and the box of all.
+/// Four boxes as lanes, and their union.
 #[derive(Clone, Copy)]
 pub(crate) struct Four<I: Simd> {
     lo: [f32x4<I>; 3],
@@ -44,7 +45,7 @@ pub(crate) struct Four<I: Simd> {
 }
 
 impl<I: Simd> Four<I> {
-    /// Four at a time stay in registers; eight would not.
+    /// Transposes four boxes. Four at a time stay in registers; eight would not.
     #[inline(always)]
     pub(crate) fn new(boxes: [Extent<I>; 4]) -> Self {
         let [a, b, c, d] = boxes;
@@ -58,7 +59,8 @@ impl<I: Simd> Four<I> {
         }
     }
 
-    /// Puts the first `count` of these and four others side by side. Returns the box of all eight.
+    /// Stores these and four later boxes side by side, the first `count` of them. Returns the union
+    /// of all eight.
     #[inline(always)]
     pub(crate) fn store(self, later: Self, count: usize, lanes: &mut BoxLanes<8>) -> Extent<I> {
         for axis in 0..3 {
@@ -76,20 +78,20 @@ impl<I: Simd> Four<I> {
     }
 }
 
-/// No box; what is in a lane that is not used.
+/// The empty box, for lanes that are not used.
 #[inline(always)]
 pub(crate) fn nothing<I: Simd>(i: I) -> Extent<I> {
     (f32x4::splat(i, f32::NAN), f32x4::splat(i, f32::NAN))
 }
 
-/// A box that is known already.
+/// Loads a box that is known already.
 #[inline(always)]
 pub(crate) fn of_box<I: Simd>(i: I, known: &Aabb) -> Extent<I> {
     let wide = |[x, y, z]: [f32; 3]| f32x4::simd_from(i, [x, y, z, z]);
     (wide(known.lo), wide(known.hi))
 }
 
-/// The box itself.
+/// Stores an extent as a box.
 #[cfg(test)]
 pub(crate) fn to_box<I: Simd>((lo, hi): Extent<I>) -> Aabb {
     let [lo, hi] = [lo, hi].map(|corner| {
@@ -99,13 +101,13 @@ pub(crate) fn to_box<I: Simd>((lo, hi): Extent<I>) -> Aabb {
     Aabb { lo, hi }
 }
 
-/// The smallest box that holds two.
+/// The smallest box that holds two boxes.
 #[inline(always)]
 pub(crate) fn union<I: Simd>(a: Extent<I>, b: Extent<I>) -> Extent<I> {
     (a.0.min(b.0), a.1.max(b.1))
 }
 
-/// A box grown by a distance on every side, as `Aabb::grown` says.
+/// A box grown by a distance on every side, as `Aabb::grown` defines it.
 #[inline(always)]
 pub(crate) fn grown<I: Simd>(i: I, (lo, hi): Extent<I>, distance: f32) -> Extent<I> {
     let distance = f32x4::splat(i, distance);
@@ -116,7 +118,7 @@ pub(crate) fn grown<I: Simd>(i: I, (lo, hi): Extent<I>, distance: f32) -> Extent
     )
 }
 
-/// The box of the points of a run and of some others; there is one at least.
+/// Bounding box of the points of a run and of some others, at least one in all.
 #[inline(always)]
 pub(crate) fn of_points<I: Simd, S: Coordinate>(
     i: I,
@@ -129,7 +131,7 @@ pub(crate) fn of_points<I: Simd, S: Coordinate>(
     {
         return of_twelve(i, shape, others);
     }
-    // A long run is some points, rows that have bounds of their own, and some points.
+    // A long run is some points, then rows that have bounds of their own, then some points.
     let rows = run.start.div_ceil(IN_A_ROW)..run.end / IN_A_ROW;
     let (head, rows, tail) = if rows.start < rows.end {
         let (start, end) = (rows.start * IN_A_ROW, rows.end * IN_A_ROW);
@@ -166,7 +168,7 @@ pub(crate) fn of_points<I: Simd, S: Coordinate>(
     S::outward(lo, hi, &shape.origin)
 }
 
-/// Includes points side by side, several at a time, so that a minimum does not wait for the one before.
+/// Includes consecutive points, several at a time, so that no minimum waits for the one before.
 #[inline(always)]
 fn include<I: Simd, S: Coordinate>(
     i: I,
@@ -188,7 +190,7 @@ fn include<I: Simd, S: Coordinate>(
     }
 }
 
-/// The box of twelve points: as many as most leaves have.
+/// Bounding box of twelve points, which is enough for most leaves.
 #[inline(always)]
 pub(crate) fn of_twelve<I: Simd, S: Coordinate>(
     i: I,
@@ -205,7 +207,7 @@ pub(crate) fn of_twelve<I: Simd, S: Coordinate>(
     S::outward(lo[0].min(lo[1]), hi[0].max(hi[1]), &shape.origin)
 }
 
-/// The box of one triangle.
+/// Bounding box of one triangle.
 #[inline(always)]
 pub(crate) fn of_corners<I: Simd, S: Coordinate>(
     i: I,
@@ -227,7 +229,8 @@ mod tests {
     use crate::ids::TreeTriangle;
     use crate::kernels::{Instructions, dispatch};
 
-    /// All instructions give the boxes that `Shape` and `Bounds` give, bit for bit.
+    /// Compares the boxes of all instruction sets with the boxes of `Shape` and `Bounds`, bit for
+    /// bit.
     fn check<S: Coordinate>(points: &[[S; 3]], origin: [f64; 4]) {
         let positions = Points::of(points.iter().copied());
         let triangles: Vec<[TreeVertex; 3]> = (0..points.len() as u32 - 2)
@@ -243,7 +246,8 @@ mod tests {
             dispatch!(instructions, i => {
                 for (triangle, &corners) in triangles.iter().enumerate() {
                     let expected = shape.box_of(TreeTriangle(triangle as u32));
-                    assert_eq!(to_box(of_corners(i, &shape, corners)), expected, "{instructions:?}");
+                    let found = to_box(of_corners(i, &shape, corners));
+                    assert_eq!(found, expected, "{instructions:?}");
                 }
                 for count in 1..=8 {
                     let mut lanes = BoxLanes::<8>::EMPTY;
@@ -260,10 +264,18 @@ mod tests {
                     }
                     assert_eq!(to_box(of_box(i, &lanes.union())), lanes.union());
                 }
-                for (run, others) in [(4..9, &[][..]), (2..2, &[1]), (5..6, &[0, 8]), (0..3, &[7, 5, 9]), (3..3, &[7, 5, 9, 0, 2, 2, 6, 6]), (3..3, &[7, 5, 9, 0, 2, 1, 6, 11, 13, 4, 3, 3])] {
+                for (run, others) in [
+                    (4..9, &[][..]),
+                    (2..2, &[1]),
+                    (5..6, &[0, 8]),
+                    (0..3, &[7, 5, 9]),
+                    (3..3, &[7, 5, 9, 0, 2, 2, 6, 6]),
+                    (3..3, &[7, 5, 9, 0, 2, 1, 6, 11, 13, 4, 3, 3]),
+                ] {
                     let others: Vec<TreeVertex> = others.iter().copied().map(TreeVertex).collect();
                     let mut bounds = Bounds::EMPTY;
-                    let all = run.clone().map(|place| TreeVertex(place as u32)).chain(others.iter().copied());
+                    let of_run = run.clone().map(|place| TreeVertex(place as u32));
+                    let all = of_run.chain(others.iter().copied());
                     all.for_each(|vertex| bounds.include(positions.get(vertex)));
                     assert_eq!(to_box(of_points(i, &shape, run, &others)), bounds.to_box(origin));
                 }

@@ -1,9 +1,9 @@
-//! Where a number is among eight.
+//! Search for a number among eight.
 
 use fearless_simd::prelude::*;
 use fearless_simd::u32x8;
 
-/// Bit k is set if the number in lane k is the wanted one.
+/// Bit mask of the lanes in which the number is the wanted one.
 #[inline(always)]
 pub(crate) fn find_lane<I: Simd>(i: I, row: &[u32; 8], wanted: u32) -> u64 {
     u32x8::load_array_ref(i, row).simd_eq(wanted).to_bitmask()

@@ -1,17 +1,11 @@
-//! Boxes of vertices, edges and triangles side by side, and which of them are near each other, eight at a time.
+//! Boxes of elements (vertices, edges, triangles) in lanes, and which of them are near each other.
 //!
-//! Between two boxes the *gap* is the largest of six differences, lower sides less upper ones: at most zero where they overlap. The
-//! boxes here are not rounded outward: in single precision they are exact, and in double precision their sides are relative to the origin
-//! and rounded to the nearest `f32`. So a gap computed in `f32` is off, and [`Limits`] says by how much at most: below the one it
-//! is surely small enough, above the other surely not, and between them exact arithmetic is asked (`pliant_exact`).
-//!
-//! With positions of `f32`, a computed gap is the true one, rounded. Rounding is monotonic, so it is below `fl(d)` only if the gap is below
-//! d, and above `fl(d)` only if the gap is above d: both limits are `fl(d)`.
-//!
-//! With positions of `f64`, let m bound |x - origin| for all coordinates x. A side is off by at most 2^-53 m from the subtraction, and from
-//! the rounding by (1 + 2^-53) 2^-24 m, or below the normal range by 2^-150 (by 2^-126 where subnormal numbers are flushed). A difference
-//! of two sides adds 2^-24 of itself, which is at most 2^-23 (1 + 2^-23) m. In all that is less than 2^-21.8 m + 2^-124; the limits allow
-//! 2^-21 m + 2^-120. Sides that were beyond `f32` are off by more: where m is not far below the largest `f32`, no limit is sure.
+//! The **gap** of two boxes is the largest of six differences, lower sides less upper sides; it is
+//! at most zero where they overlap. These boxes are not rounded outward. Sides of `f32` positions
+//! are exact; sides of `f64` positions are relative to the origin and rounded to the nearest `f32`.
+//! So a gap computed in `f32` has an error, which [`Limits`] bounds. A gap below the lower limit is
+//! surely small enough, one above the upper limit surely not; between them exact arithmetic
+//! (`pliant_exact`) decides.
 
 use super::Coordinate;
 use super::boxes::{EightBoxes, Registers};
@@ -21,10 +15,31 @@ use crate::ids::TreeVertex;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x4, f32x8, mask32x8, u32x8};
 
-/// The corners of eight elements that have `C` each, the same corner of all side by side.
+/// Corners of eight elements with `C` corners each, by corner and lane.
 pub(crate) type EightCorners<const C: usize> = [[u32; 8]; C];
 
-/// A gap below the one is surely at most the distance asked for, above the other surely not.
+/// Error bounds of a computed gap against a distance d.
+///
+/// A gap below `sure` is surely at most d, and a gap above `possible` is surely more.
+///
+/// # Positions of `f32`
+///
+/// A computed gap is the true gap, rounded. Rounding is monotonic, so it is below `fl(d)` only if
+/// the gap is below d, and above `fl(d)` only if the gap is above d. So both limits are `fl(d)`.
+///
+/// # Positions of `f64`
+///
+/// Let m bound `|x - origin|` for all coordinates x.
+///
+/// - A side is off by at most 2^-53 m from the subtraction, and by `(1 + 2^-53) 2^-24 m` from the
+///   rounding.
+/// - Below the normal range the rounding is off by 2^-150, or by 2^-126 where subnormal numbers are
+///   flushed.
+/// - A difference of two sides adds 2^-24 of itself, which is at most `2^-23 (1 + 2^-23) m`.
+///
+/// In all that is less than `2^-21.8 m + 2^-124`. The limits allow `2^-21 m + 2^-120`. Sides that
+/// were beyond `f32` are off by more. So where m is not far below the largest `f32`, no limit is
+/// sure.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
     sure: f32,
@@ -32,7 +47,8 @@ pub(crate) struct Limits {
 }
 
 impl Limits {
-    /// For a distance that is at least 0, where no coordinate is further than `most` from the origin on any axis.
+    /// Limits for a distance of at least 0, where no coordinate is further than `most` from the
+    /// origin on any axis.
     pub(crate) fn new<S: Real>(distance: f64, most: f64) -> Self {
         if S::BOXES_ARE_EXACT {
             let rounded = distance as f32;
@@ -54,7 +70,7 @@ impl Limits {
         }
     }
 
-    /// Both limits, surely and possibly, in every lane.
+    /// Both limits, `sure` and `possible`, in every lane.
     #[inline(always)]
     pub(super) fn in_lanes<I: Simd>(self, i: I) -> [f32x8<I>; 2] {
         [f32x8::splat(i, self.sure), f32x8::splat(i, self.possible)]
@@ -69,7 +85,7 @@ impl Limits {
     }
 }
 
-/// A box whose corners fill registers of four: behind z there is 0, so that there is no gap.
+/// A box whose corners fill registers of four. Behind z is 0, so that the fourth axis has no gap.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PaddedBox {
     pub(crate) lo: [f32; 4],
@@ -83,7 +99,10 @@ impl From<Aabb> for PaddedBox {
     }
 }
 
-/// The boxes of eight elements, each of which has `C` corners. `end` is where the vertices are at the end of a motion.
+/// Boxes of eight elements with `C` corners each, written to `lanes`.
+///
+/// With `end`, the positions of vertices at the end of a motion, a box holds the element at both
+/// ends.
 #[inline(always)]
 pub(crate) fn of_elements<I: Simd, S: Coordinate, const C: usize>(
     i: I,
@@ -118,7 +137,7 @@ pub(crate) fn of_elements<I: Simd, S: Coordinate, const C: usize>(
 }
 
 impl<I: Simd> Registers<I> {
-    /// The gap of each to that in the same lane of others.
+    /// Gaps between the boxes of two registers, lane by lane.
     #[inline(always)]
     pub(super) fn gaps_to(&self, others: &Self) -> f32x8<I> {
         let on = |axis: usize| {
@@ -128,7 +147,7 @@ impl<I: Simd> Registers<I> {
         on(0).max(on(1)).max(on(2))
     }
 
-    /// The gap of each to one box.
+    /// Gap of each box to one box.
     #[inline(always)]
     fn gaps<const D: usize>(&self, one_lo: [f32; D], one_hi: [f32; D]) -> f32x8<I> {
         let i = self.lo[0].token();
@@ -141,15 +160,18 @@ impl<I: Simd> Registers<I> {
     }
 }
 
-/// Which lanes are possibly near a box.
+/// Bit mask of the lanes that are possibly near a box.
 #[inline(always)]
 pub(crate) fn near_box<I: Simd>(i: I, lanes: &EightBoxes, all: &PaddedBox, limits: Limits) -> u64 {
     let gaps = Registers::new(i, lanes).gaps(all.lo, all.hi);
     gaps.simd_le(f32x8::splat(i, limits.possible)).to_bitmask()
 }
 
-/// Which pairs of lanes (i, j) are possibly near each other, bit 8 i + j, of the first only the lanes of a mask; and whether any of
-/// these pairs is not surely so. If the elements are of one body, those that have a corner in common are left out.
+/// Bit mask `8 i + j` of the pairs of lanes (i, j) that are possibly near each other, and whether
+/// any of these is not surely so.
+///
+/// Only the lanes i of the mask `rows` are compared. Within one body, elements that share a corner
+/// are left out.
 #[inline(always)]
 pub(crate) fn near_pairs<I: Simd, const A: usize, const B: usize>(
     i: I,
@@ -187,7 +209,7 @@ pub(crate) fn near_pairs<I: Simd, const A: usize, const B: usize>(
     (all, unsure.any_true())
 }
 
-/// Which pairs of lanes (i, j) are surely near each other: bit 8 i + j.
+/// Bit mask `8 i + j` of the pairs of lanes (i, j) that are surely near each other.
 #[inline(always)]
 pub(crate) fn sure_pairs<I: Simd>(i: I, a: &EightBoxes, b: &EightBoxes, limits: Limits) -> u64 {
     let registers = Registers::new(i, b);
@@ -207,8 +229,10 @@ mod tests {
     use crate::kernels::{Instructions, dispatch};
     use pliant_oracle::{Class, Random};
 
-    /// Compares two triangles at distances round their gap with exact arithmetic; returns how often the limits were not certain, and how
-    /// often limits that allow for a sixty-fourth of the error would have been wrong.
+    /// Compares two triangles at distances round their gap with exact arithmetic.
+    ///
+    /// Returns how often the limits were not certain, and how often limits for a sixty-fourth of
+    /// the error would have been wrong.
     fn check<S: Coordinate>(of: fn(f64) -> S, classes: &[Class], rounds: usize) -> [usize; 2] {
         let mut random = Random::new(31);
         let [mut uncertain, mut wrong] = [0; 2];
@@ -292,7 +316,7 @@ mod tests {
         let [uncertain, wrong] = check(|x| x, &Class::ALL, 4000);
         assert!(uncertain > 1000 && wrong > 0, "{uncertain} {wrong}");
         let [uncertain, wrong] = check(|x| x as f32, &Class::ALL, 4000);
-        // Positions of single precision need no allowance at all.
+        // Positions of `f32` need no allowance at all.
         assert!(uncertain > 1000 && wrong == 0, "{uncertain} {wrong}");
     }
 }

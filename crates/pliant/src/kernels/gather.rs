@@ -1,13 +1,16 @@
-//! Points brought into another order, and the bounds of every few of them.
+//! Gather: points brought into tree order, and bounds of every row of points.
 //!
-//! While a point is in a register its bounds cost next to nothing. The boxes of upper nodes, whose points are long runs, are then
-//! made from bounds instead of points.
+//! While a point is in a register its bounds cost next to nothing. Boxes of upper nodes, whose
+//! points are long runs, are then made from bounds of rows instead of points.
 
 use super::{Coordinate, Instructions, dispatch};
 use crate::geometry::{IN_A_ROW, RowBounds};
 use fearless_simd::prelude::*;
 
-/// Takes the points that `order` names, each with padding, and the bounds of every [`IN_A_ROW`].
+/// Gathers the points that `order` names, each with padding, and the bounds of every [`IN_A_ROW`]
+/// points.
+///
+/// O(points). The last points, fewer than a row, get no bounds.
 pub(crate) fn gather<S: Coordinate>(
     instructions: Instructions,
     from: &[[S; 3]],
@@ -41,11 +44,11 @@ fn in_rows<I: Simd, S: Coordinate>(
         (lo[0].min(lo[1]).min(lo[2].min(lo[3]))).store_slice(&mut bounds[0]);
         (hi[0].max(hi[1]).max(hi[2].max(hi[3]))).store_slice(&mut bounds[1]);
     }
-    // Fewer than a row need no bounds: nobody reads them.
+    // Fewer points than a row need no bounds: nobody reads them.
     take(from, rest_order, rest);
 }
 
-/// Takes points, each with padding.
+/// Gathers points, each with padding.
 #[inline(always)]
 fn take<S: Copy>(from: &[[S; 3]], order: &[u32], points: &mut [[S; 4]]) {
     for (place, &point) in points.iter_mut().zip(order) {

@@ -1,13 +1,14 @@
-//! Which instructions this machine has, and code compiled for them.
+//! Instruction sets of the machine, and code compiled for each of them.
 //!
-//! Two sets are enough: those that every machine of an architecture has (SSE2, NEON, WebAssembly SIMD, or plain code), and AVX2. AVX-512
-//! is not used where there is some, because every comparison of the kernels would write a mask register there, and most of them
-//! only to be read at once (in trials the overlap kernel took 0.77 ns a wide node with AVX2 and 1.4 with AVX-512, and whole queries
-//! about 15 % longer). A third set between them (SSE4.2) would be compiled by everyone for machines built before 2013.
+//! There are two sets: the baseline of the architecture (SSE2, NEON, WebAssembly SIMD or plain
+//! code), and AVX2. AVX-512 is not used where it exists: every comparison there writes a mask
+//! register, mostly only to be read at once. In trials the overlap kernel took 0.77 ns a wide node
+//! with AVX2 and 1.4 ns with AVX-512; whole queries took about 15 % longer. A third set between the
+//! two (SSE4.2) would serve machines built before 2013, and everyone would compile it.
 
 use fearless_simd::Level;
 
-/// The instructions that kernels use.
+/// Instruction set that kernels use.
 #[derive(Clone, Copy, Debug)]
 pub struct Instructions(pub(crate) Set);
 
@@ -26,7 +27,7 @@ pub(crate) type Baseline = fearless_simd::aarch64::Neon;
 pub(crate) type Baseline = Level;
 
 impl Instructions {
-    /// The widest that pay.
+    /// The widest instruction set that this machine has and that pays: AVX2, else the baseline.
     pub fn widest() -> Self {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         if let Some(avx2) = Level::new().as_avx2() {
@@ -35,7 +36,7 @@ impl Instructions {
         Self::baseline()
     }
 
-    /// Those that every machine of this architecture has.
+    /// The instruction set that every machine of this architecture has.
     #[expect(
         clippy::missing_panics_doc,
         reason = "no machine of these architectures is without"
@@ -51,14 +52,17 @@ impl Instructions {
         Self(Set::Baseline(level))
     }
 
-    /// All that this machine has, for tests that they give the same bits.
+    /// Every instruction set that this machine has: tests check that all give the same bits.
     pub fn all() -> Vec<Self> {
         vec![Self::baseline(), Self::widest()]
     }
 }
 
-/// Evaluates an expression, compiled for each set of instructions, with a token of those that are chosen. It stands round a whole
-/// batch of work, never round a node: what is called inside is inlined, or it is compiled without the instructions.
+/// Evaluates an expression that is compiled for each instruction set, with the token of the chosen
+/// one.
+///
+/// It stands round a whole batch of work, never round a node. Whatever is called inside must be
+/// inlined, or it is compiled without the instructions.
 macro_rules! dispatch {
     ($instructions:expr, $token:ident => $work:expr) => {
         match $instructions.0 {
@@ -79,7 +83,10 @@ macro_rules! dispatch {
 }
 pub(crate) use dispatch;
 
-/// The baseline of the common architectures is one type; of the others, the SIMD library chooses.
+/// Evaluates an expression for the baseline, with its token.
+///
+/// The baseline of x86-64 and of AArch64 is one type. On other architectures the SIMD library
+/// chooses.
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 macro_rules! with_baseline {
     ($baseline:expr, $token:ident => $work:expr) => {{

@@ -1,28 +1,30 @@
-//! The inner loops, eight wide: the only folder that knows instruction sets.
+//! Kernels: the inner loops, eight lanes wide; the only folder that knows instruction sets.
 //!
-//! `instructions` says which there are. A kernel takes a token `i: impl Simd` that stands for them and is compiled once for each set;
-//! the caller turns the choice into the token (`dispatch!`) round a whole batch of work, never per node. No kernel fuses a
-//! multiplication with an addition, and none reorders a sum, so all sets give the same bits: tests compare them, and with plain
-//! code that says what each kernel means. Where a closure goes into `std::array::map` or `from_fn` the compiler may not inline it,
-//! and then it is compiled without the instructions: kernels use plain loops.
+//! A kernel takes a token `i: impl Simd` that stands for an instruction set, and is compiled once
+//! for each set. Callers turn the chosen set into its token with `dispatch!`, round a whole batch
+//! of work and never per node. No kernel fuses a multiplication with an addition, and none reorders
+//! a sum, so all sets give the same bits. Tests compare the sets with each other and with plain
+//! code that defines each kernel. Kernels use plain loops: a closure in `std::array::map` or
+//! `from_fn` may not be inlined, and then it is compiled without the instructions.
 //!
-//! ```text
-//! copy_checked  positions of the caller: checked, copied, bounded
-//! gather        positions into tree order, and the bounds of every few
-//! extent        boxes of points and of triangles
-//! boxes         boxes side by side, and which of them overlap
-//! apart         whether elements that move stay apart
-//! closest       where elements are closest, and between what their distance is
-//! gaps          boxes of vertices, edges and triangles, and which of them are near each other
-//! ring          the elements of one run, each with each other
-//! find          where a number is among eight
-//! ranks         how many of few numbers are smaller than each
-//! buffer        the lanes set in a mask, written to a list without branches
-//! signs         orientation signs of eight candidates at once, where rounding cannot change them
-//! coordinate    points in registers, and points as lanes
-//! vector        sums and products of vectors, of numbers or of registers
-//! quantized     boxes as bytes, and which of them are surely apart
-//! ```
+//! | module | kernel |
+//! |---|---|
+//! | `instructions` | detection of instruction sets, and `dispatch!` |
+//! | `copy_checked` | the caller's positions: checked, copied, bounded in one pass |
+//! | `gather` | positions into tree order, and the bounds of every row of points |
+//! | `extent` | bounding boxes of points and of triangles |
+//! | `boxes` | boxes in structure-of-arrays order, and which of them overlap |
+//! | `quantized` | boxes in bytes, and which of them are surely apart |
+//! | `signs` | orientation signs of eight candidates, where rounding cannot change them |
+//! | `apart` | separating directions of elements in motion |
+//! | `closest` | closest points of elements, with lower and upper bounds of the distance |
+//! | `gaps` | boxes of elements (vertices, edges, triangles), and which are near each other |
+//! | `ring` | the elements of one run, each with each other |
+//! | `buffer` | the set bits of a mask, appended to a list without branches |
+//! | `find` | search for a number among eight |
+//! | `ranks` | ranks of a few numbers: how many are smaller than each |
+//! | `coordinate` | points in registers, and transposed into lanes |
+//! | `vector` | arithmetic of vectors, of numbers or of registers |
 
 pub(crate) mod apart;
 mod boxes;
@@ -43,7 +45,7 @@ mod vector;
 
 pub(crate) use boxes::{BoxLanes, EightBoxes, near_mask, overlap_mask};
 pub(crate) use buffer::Buffer;
-pub(crate) use coordinate::{Coordinate, Corners};
+pub(crate) use coordinate::{Coordinate, TrianglePairs};
 pub(crate) use copy_checked::{check, copy_checked};
 pub(crate) use fearless_simd::Simd;
 pub(crate) use find::find_lane;

@@ -1,39 +1,44 @@
-//! Boxes of eight triangles quantized to bytes: which of two eights are surely apart, in a quarter of the instructions that the boxes
-//! themselves take.
+//! Boxes of eight triangles quantized to bytes, which reject pairs that are surely apart.
 //!
-//! A coordinate becomes a whole number of units, and of that the lowest byte is kept. Both roundings go the same way and so keep
-//! order: if in whole units one box ends before another begins, it does so in truth. A byte tells two such numbers apart
-//! if they differ by less than 128: the sign of the difference of the bytes is then that of the numbers. They do if both eights lie in
-//! boxes that overlap, neither of which is longer than [`MOST_UNITS`] units on any side.
-//!
-//! So the 64 pairs of two eights are two registers of 32 bytes, and a comparison is a subtraction.
+//! That takes a quarter of the instructions of a test of the boxes: 64 pairs are two registers of
+//! 32 bytes, compared by subtraction. A coordinate becomes a whole number of units, of which only
+//! the lowest byte is kept. Both ends of a box are rounded the same way, which keeps order: boxes
+//! that are apart in whole units are apart in truth. The sign of a difference of bytes is right if
+//! the two numbers differ by less than 128. They do if the boxes of both eights overlap, and
+//! neither is longer than [`MOST_UNITS`] units on any side.
 
 use super::boxes::BoxLanes;
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, i8x32, i32x8, u8x32, u64x4};
 
-/// The longest side of a box of eight that fits, in units: after rounding, which moves either end by at most a quarter and then to
-/// a whole number, it is at most 63 whole ones.
+/// The longest side, in units, of a box of eight that fits.
+///
+/// Rounding moves either end by at most a quarter and then to a whole number, so the side is at
+/// most 63 whole units.
 const MOST_UNITS: f32 = 61.0;
-/// No coordinate may be more units from zero: up to here products with the scale are off by at most a quarter of a unit.
+/// The largest coordinate, in units from zero. Up to here products with the scale are off by at
+/// most a quarter of a unit.
 pub(crate) const FARTHEST: f32 = (1 << 22) as f32;
 
-/// The boxes of eight triangles in whole units, modulo 256. Byte k of a word is lane k; that of a lane that is not used is padding.
+/// Boxes of eight triangles in whole units, modulo 256. Byte k of a word is lane k; bytes of unused
+/// lanes are padding.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct QuantizedLanes {
     lo: [u64; 3],
     hi: [u64; 3],
-    /// All bits if these eight fit, or none: then nothing is surely apart from them.
+    /// Mask that says whether these eight fit: all bits, or none. If none, nothing is surely apart
+    /// from them.
     fits: u64,
-    /// So that eight boxes are 64 bytes, and found by a shift.
+    /// Padding to 64 bytes, so that a shift finds the place of eight boxes.
     _unused: u64,
 }
 
 impl QuantizedLanes {
-    /// Says whether these eight fit: the longest side of the box of all of them, and units to a length of one.
+    /// Sets whether these eight fit, from the longest side of the box of all and the number of
+    /// units in a length of one.
     #[inline(always)]
     pub(crate) fn set_fits(&mut self, longest: f32, units: f32) {
-        // What is not a number does not fit.
+        // NaN does not fit.
         self.fits = if longest * units <= MOST_UNITS {
             u64::MAX
         } else {
@@ -42,7 +47,8 @@ impl QuantizedLanes {
     }
 }
 
-/// The quantized boxes of eight boxes, at so many units to a length of one; as if they did not fit.
+/// Quantizes eight boxes, at `units` units to a length of one. The result does not fit until
+/// [`set_fits`](QuantizedLanes::set_fits) says so.
 #[inline(always)]
 pub(crate) fn quantize<I: Simd>(i: I, boxes: &BoxLanes<8>, units: f32) -> QuantizedLanes {
     let rows = [
@@ -55,7 +61,7 @@ pub(crate) fn quantize<I: Simd>(i: I, boxes: &BoxLanes<8>, units: f32) -> Quanti
     ];
     let mut whole = [i32x8::splat(i, 0); 8];
     for row in 0..6 {
-        // Toward zero, on either side of a box: this keeps order too.
+        // Truncation goes toward zero for either side of a box. That keeps order too.
         whole[row] = i32x8::truncate_from(f32x8::load_array_ref(i, rows[row]) * units);
     }
     let [a, b, c, d, e, f, ..] = whole;
@@ -71,7 +77,7 @@ pub(crate) fn quantize<I: Simd>(i: I, boxes: &BoxLanes<8>, units: f32) -> Quanti
     }
 }
 
-/// Quantized boxes of eight, each eight times in a row: what many others are compared with.
+/// Quantized boxes of eight, each repeated eight times, to be compared with many others.
 #[derive(Clone, Copy)]
 pub(crate) struct QuantizedRows<I: Simd> {
     lo: [[u8x32<I>; 2]; 3],
@@ -79,7 +85,7 @@ pub(crate) struct QuantizedRows<I: Simd> {
     fits: u64,
 }
 
-/// Byte k of these is the lane that is repeated there, in the first four lanes and in the last.
+/// Lane that is repeated at byte k, of the first four lanes and of the last four.
 const REPEATED: [[u8; 32]; 2] = {
     let mut lanes = [[0; 32]; 2];
     let mut byte = 0;
@@ -115,7 +121,7 @@ impl<I: Simd> QuantizedRows<I> {
         rows
     }
 
-    /// Bit 8 i + j is set if lane i is surely apart from lane j of `other`.
+    /// Rejection mask: bit `8 i + j` is set if lane i is surely apart from lane j of `other`.
     #[inline(always)]
     pub(crate) fn apart(&self, i: I, other: &QuantizedLanes) -> u64 {
         let mut gaps = [u8x32::splat(i, 0); 2];
@@ -123,7 +129,7 @@ impl<I: Simd> QuantizedRows<I> {
             let lo = all_lanes(i, other.lo[axis]);
             let hi = all_lanes(i, other.hi[axis]);
             for half in 0..2 {
-                // Negative where one ends before the other begins.
+                // Negative where one box ends before the other begins.
                 gaps[half] |= self.hi[axis][half] - lo;
                 gaps[half] |= hi - self.lo[axis][half];
             }
@@ -133,13 +139,13 @@ impl<I: Simd> QuantizedRows<I> {
     }
 }
 
-/// Eight lanes four times.
+/// Eight lanes, repeated four times.
 #[inline(always)]
 fn all_lanes<I: Simd>(i: I, lanes: u64) -> u8x32<I> {
     u64x4::splat(i, lanes).bitcast()
 }
 
-/// Which bytes are negative.
+/// Bit mask of the negative bytes.
 #[inline(always)]
 fn negative<I: Simd>(bytes: u8x32<I>) -> u64 {
     bytes.bitcast::<i8x32<I>>().simd_lt(0).to_bitmask()
@@ -152,7 +158,8 @@ mod tests {
     use crate::kernels::{Instructions, dispatch};
     use pliant_oracle::Random;
 
-    /// Eight boxes in a box of at most `MOST_UNITS` units from a corner on, which lies on all sides of zero.
+    /// Eight boxes in a box of at most `units` units from `corner` on, which lies on all sides of
+    /// zero.
     fn eight(random: &mut Random, corner: [f32; 3], units: f32) -> (BoxLanes<8>, Aabb) {
         let mut boxes = BoxLanes::EMPTY;
         let mut part = || random.below(1_000_001) as f32 / 1e6;
@@ -189,8 +196,10 @@ mod tests {
             }
             for instructions in Instructions::all() {
                 let [apart, overlap] = dispatch!(instructions, i => {
-                    let [mut quantized_a, mut quantized_b] = [quantize(i, &a, units), quantize(i, &b, units)];
-                    assert_eq!(QuantizedRows::new(i, &quantized_a).apart(i, &quantized_b), 0, "none fits");
+                    let mut quantized_a = quantize(i, &a, units);
+                    let mut quantized_b = quantize(i, &b, units);
+                    let rejected = QuantizedRows::new(i, &quantized_a).apart(i, &quantized_b);
+                    assert_eq!(rejected, 0, "none fits");
                     quantized_a.set_fits(a.union_side(), units);
                     quantized_b.set_fits(b.union_side(), units);
                     let apart = QuantizedRows::new(i, &quantized_a).apart(i, &quantized_b);

@@ -1,14 +1,17 @@
-//! Ranks of few numbers: how many of them are smaller than each.
+//! Ranks of a few numbers: how many of them are smaller than each.
 //!
-//! All are compared with all, eight at a time and without branches: for up to some dozens that is less work than sorting them.
+//! All are compared with all, eight at a time and without branches. Up to some dozens of numbers
+//! that is less work than sorting.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i32x8};
 
-/// The most numbers that are ranked.
+/// The most numbers that can be ranked.
 pub(crate) const MOST: usize = 128;
 
-/// Ranks at most [`MOST`] numbers, none above `i32::MAX`. What it says behind as many means nothing.
+/// Ranks n numbers, at most [`MOST`], none above `i32::MAX`. O(n²) comparisons, eight at a time.
+///
+/// Ranks behind the first n mean nothing.
 #[inline(always)]
 pub(crate) fn rank<I: Simd>(i: I, numbers: &[u32], ranks: &mut [u32; MOST]) {
     let mut padded = [0; MOST];
@@ -22,7 +25,7 @@ pub(crate) fn rank<I: Simd>(i: I, numbers: &[u32], ranks: &mut [u32; MOST]) {
         2 => rank_some::<I, 2>(i, numbers, eights, ranks),
         3 => rank_some::<I, 3>(i, numbers, eights, ranks),
         count => {
-            // So many as there are registers for.
+            // Four groups of eight, as there are registers for.
             for first in (0..count).step_by(4) {
                 rank_some::<I, 4>(i, numbers, &eights[first..], &mut ranks[first..]);
             }
@@ -30,7 +33,7 @@ pub(crate) fn rank<I: Simd>(i: I, numbers: &[u32], ranks: &mut [u32; MOST]) {
     }
 }
 
-/// Ranks some eights among all numbers.
+/// Ranks N groups of eight among all numbers.
 #[inline(always)]
 fn rank_some<I: Simd, const N: usize>(
     i: I,
@@ -46,7 +49,7 @@ fn rank_some<I: Simd, const N: usize>(
     for &number in numbers {
         let number = i32x8::splat(i, number as i32);
         for some in 0..N {
-            // A mask is minus one.
+            // A true lane is minus one.
             fewer[some] += ranked[some]
                 .simd_gt(number)
                 .select(i32x8::splat(i, -1), zero);

@@ -1,7 +1,8 @@
-//! The elements of one run in a ring: each with every other one, once, eight pairs at a time.
+//! Elements of one run in a ring: every pair of them once, eight pairs at a time.
 //!
-//! A ring that is written twice in a row begins, turned by k, at place k. So what is read at place i and at place i + k are eight pairs, and
-//! turns by 1 to n / 2 give all pairs of n elements, with few twice; each element beside eight others takes twice as many comparisons.
+//! A ring written twice in a row has its rotation by k at place k. So places i and i + k, read
+//! eight at a time, are eight pairs. Rotations by 1 to n / 2 give all pairs of n elements, and few
+//! of them twice. Comparing each element with eight others would take twice as many comparisons.
 
 use super::EightBoxes;
 use super::boxes::Registers;
@@ -9,12 +10,12 @@ use super::gaps::{EightCorners, Limits};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, u32x8};
 
-/// The most elements of a run.
+/// The most elements of a run: eight triangles that share nothing have 24 edges.
 pub(crate) const MOST_OF_RUN: usize = 24;
-/// Places for the most elements twice, and so for eight that begin at any place of any turn.
+/// Places for the most elements twice, and so for eight from any place of any rotation.
 const PLACES: usize = 2 * MOST_OF_RUN;
 
-/// Boxes of elements that have `C` corners each, and these corners, in a ring.
+/// Ring of the boxes of elements with `C` corners each, and of these corners.
 pub(crate) struct Ring<const C: usize> {
     lo: [[f32; PLACES]; 3],
     hi: [[f32; PLACES]; 3],
@@ -30,7 +31,8 @@ impl<const C: usize> Ring<C> {
         count: 0,
     };
 
-    /// Puts so many elements into the ring, at most [`MOST_OF_RUN`], which lie side by side in eights.
+    /// Fills the ring with `count` elements, at most [`MOST_OF_RUN`], which come in groups of
+    /// eight.
     #[inline(always)]
     pub(crate) fn fill<'e>(
         &mut self,
@@ -38,7 +40,7 @@ impl<const C: usize> Ring<C> {
         eights: impl Iterator<Item = (&'e EightBoxes, &'e EightCorners<C>)> + Clone,
     ) {
         self.count = count.min(MOST_OF_RUN);
-        // What is behind the last of the first time is written over the second time.
+        // The first copy's last group may have too many; the second copy overwrites these.
         for (start, eights) in [(0, eights.clone()), (self.count, eights)] {
             for (place, (boxes, corners)) in eights.enumerate() {
                 let at = (start + 8 * place).min(PLACES - 8);
@@ -53,8 +55,10 @@ impl<const C: usize> Ring<C> {
         }
     }
 
-    /// Shows the places of every two elements that are possibly near each other and have no corner in common, the lower first, and whether
-    /// they surely are.
+    /// Shows the places of every two elements that are possibly near each other, the lower first,
+    /// and whether they surely are.
+    ///
+    /// Elements that share a corner are left out.
     #[inline(always)]
     pub(crate) fn near_pairs<I: Simd>(
         &self,
@@ -74,7 +78,7 @@ impl<const C: usize> Ring<C> {
                         near &= !corner.simd_eq(other);
                     }
                 }
-                // Of a ring turned by half, the other half has the same pairs.
+                // In a rotation by half the ring, the second half repeats the pairs of the first.
                 let end = if 2 * turn == self.count {
                     turn
                 } else {
@@ -98,7 +102,7 @@ impl<const C: usize> Ring<C> {
         }
     }
 
-    /// Eight elements in a row, from a place on.
+    /// Loads eight elements in a row, from `place` on.
     #[inline(always)]
     fn eight<I: Simd>(&self, i: I, place: usize) -> (Registers<I>, [u32x8<I>; C]) {
         let at = place.min(PLACES - 8);
@@ -121,12 +125,13 @@ mod tests {
     use crate::kernels::{Instructions, dispatch};
     use pliant_oracle::Random;
 
-    /// Elements on a lattice, so that gaps are often the margin, and corners of few vertices, so that many are shared.
+    /// Elements on a lattice, so that gaps often equal the margin, with corners of few vertices, so
+    /// that many are shared.
     fn eights(random: &mut Random, count: usize) -> Vec<(EightBoxes, EightCorners<2>)> {
         let mut eights = vec![(EightBoxes::EMPTY, [[0; 8]; 2]); count.div_ceil(8)];
         for (place, (boxes, corners)) in (0..).step_by(8).zip(&mut eights) {
             for lane in 0..8 {
-                // What is missing to the last eight is its first again.
+                // The first element of a run is repeated to fill the last eight.
                 let copied = if place + lane < count { lane } else { 0 };
                 for axis in 0..3 {
                     let lo = random.below(6) as f32;
@@ -151,7 +156,8 @@ mod tests {
         for round in 0..20 * (MOST_OF_RUN + 1) {
             let count = round % (MOST_OF_RUN + 1);
             let all = eights(random, count);
-            // Gaps are whole: those of 1 are near but not surely, in double precision too if coordinates are that large.
+            // Gaps are whole numbers. A gap of 1 is near but not surely; in double precision too,
+            // if coordinates are that large.
             let limits = [Limits::new::<f32>(1.0, 7.0), Limits::new::<f64>(1.0, 2e6)][round % 2];
             let element = |place: usize| {
                 let ((boxes, corners), lane) = (all[place / 8], place % 8);

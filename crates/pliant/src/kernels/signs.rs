@@ -1,47 +1,39 @@
-//! Orientation signs of eight candidates at once, in f32, where rounding cannot change them.
+//! Orientation signs of eight candidates at once in `f32`, where rounding cannot change them.
 //!
-//! For points p0, p1, p2, q let e1 = p1 - p0, e2 = p2 - p0, n = e1 x e2, t = q - p0. With u = 2^-24 each difference carries one
-//! rounding to f32 (differences of f64 a second, 2^29 times smaller), each component of n two differences, a product and a
-//! subtraction, and n . t another difference, a product and two sums: eight roundings on every path. Let |v| be the largest
-//! component of v. Then n . t is six products of magnitude at most |e1| |e2| |t|, and the computed value is off by at most
-//! 8 u 6 |e1| |e2| |t|, to first order; a ninth u covers the rest and the rounding of the bound:
-//!
-//! ```text
-//! |n . t| > 54 u |e1| |e2| |t|    the sign is certain
-//! ```
-//!
-//! What is lost below the normal range (differences of f64 that are no normal f32, products that underflow, and all of it if
-//! the thread flushes subnormals to zero) is at most 2^-126 a step, times two of the lengths. It is less than the slack of the
-//! ninth u if every length is at least 2^-40 = [`SHORTEST`], which is therefore asked for; shorter ones, zero among them, are
-//! left to exact arithmetic. Comparisons are strict, so infinities and NaN are not certain either.
-//!
-//! Coarser than the bound of `pliant_exact`'s filter by the shape of the triangles, but without a second sum for each sign.
+//! This is the floating-point filter of the intersection test; signs that are not certain go to
+//! exact arithmetic. The bound of [`compare`] is coarser than the bound of `pliant_exact`'s filter,
+//! by the shape of the triangles. But it needs no second sum for each sign.
 
-use super::coordinate::{Coordinate, Corners, Vectors};
+use super::coordinate::{Coordinate, TrianglePairs, Vectors};
 use super::vector::{cross, dot};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, mask32x8};
 
-/// 54 u, less the factor [`ROOM`].
+/// 54 u, divided by the factor [`ROOM`].
 const RELATIVE_ERROR: f32 = 54.0 * (f32::EPSILON / 2.0) / ROOM;
-/// The terms of n . t add up to at most six times |e1| |e2| |t|. So where this times it is finite, none of them has overflowed;
-/// where it is not, the bound is infinite and nothing is certain.
+/// Factor against overflow: the terms of n . t add up to at most six times `|e1| |e2| |t|`.
+///
+/// Where `ROOM` times that product is finite, no term has overflowed. Where it is not, the bound is
+/// infinite and nothing is certain.
 const ROOM: f32 = 8.0;
+/// Least length, 2^-40, for which a sign can be certain.
 const SHORTEST: f32 = 1.0 / (1_u64 << 40) as f32;
 
-/// The plane signs of eight pairs of triangles A, B; bit i of a mask is pair i.
+/// Plane signs of eight pairs of triangles A, B. Bit i of a mask is pair i.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct PlaneSigns {
-    /// One triangle lies on one side of the other's plane: they do not intersect.
+    /// Pairs of which one triangle is strictly on one side of the other's plane: they do not
+    /// intersect.
     pub(crate) apart: u8,
-    /// All six signs are certain, and none is zero.
+    /// Pairs whose six signs are all certain, and none zero.
     pub(crate) certain: u8,
-    /// Which of them are positive: of the corners of A against B, then of B against A.
+    /// Positive signs: of the corners of A against the plane of B, then of B's against A's.
     pub(crate) positive: [u8; 6],
 }
 
+/// Plane signs of eight pairs of triangles: each corner against the plane of the other triangle.
 #[inline(always)]
-pub(crate) fn plane_signs<I: Simd, S: Coordinate>(i: I, corners: &Corners<S>) -> PlaneSigns {
+pub(crate) fn plane_signs<I: Simd, S: Coordinate>(i: I, corners: &TrianglePairs<S>) -> PlaneSigns {
     let (a0, a1, a2, b0, b1, b2) = (0, 1, 2, 3, 4, 5);
     let [a_1, a_2, a_b, a_b1, a_b2, b_1, b_2, b_a1, b_a2] = corners.differences(
         i,
@@ -61,14 +53,14 @@ pub(crate) fn plane_signs<I: Simd, S: Coordinate>(i: I, corners: &Corners<S>) ->
     let (l_b1, l_b2) = (length(a_b1), length(a_b2));
     let (k_1, k_2, k_a1, k_a2) = (length(b_1), length(b_2), length(b_a1), length(b_a2));
 
-    // Of the corners of B against A.
+    // Corners of B against the plane of A.
     let (normal, scale) = (cross(a_1, a_2), l_1 * l_2 * ROOM);
     let of_b = Signs([
         compare(dot(normal, a_b), scale * l_b),
         compare(dot(normal, a_b1), scale * l_b1),
         compare(dot(normal, a_b2), scale * l_b2),
     ]);
-    // Of the corners of A against B; b0 - a0 stands for a0 - b0.
+    // Corners of A against the plane of B. b0 - a0 stands for a0 - b0.
     let (normal, scale) = (cross(b_1, b_2), k_1 * k_2 * ROOM);
     let [plus, minus] = compare(dot(normal, a_b), scale * l_b);
     let of_a = Signs([
@@ -94,18 +86,18 @@ pub(crate) fn plane_signs<I: Simd, S: Coordinate>(i: I, corners: &Corners<S>) ->
     }
 }
 
-/// Of three points: certainly positive, certainly negative.
+/// Signs of three points: certainly positive, certainly negative.
 struct Signs<I: Simd>([[mask32x8<I>; 2]; 3]);
 
 impl<I: Simd> Signs<I> {
-    /// All positive or all negative.
+    /// Mask of the lanes with all three positive or all three negative.
     #[inline(always)]
     fn one_side(&self) -> mask32x8<I> {
         let [a, b, c] = self.0;
         (a[0] & b[0] & c[0]) | (a[1] & b[1] & c[1])
     }
 
-    /// All known.
+    /// Mask of the lanes with all three known.
     #[inline(always)]
     fn certain(&self) -> mask32x8<I> {
         let [a, b, c] = self.0;
@@ -118,18 +110,19 @@ fn bits<I: Simd>(mask: mask32x8<I>) -> u8 {
     mask.to_bitmask() as u8
 }
 
-/// Two signs of eight pairs of lines; bit i of a mask is pair i.
+/// Two line signs of eight pairs of triangles. Bit i of a mask is pair i.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LineSigns {
-    /// Both are certainly negative.
+    /// Pairs with two signs that are certainly negative.
     pub(crate) both_negative: u8,
-    /// One at least is certainly positive.
+    /// Pairs with at least one sign that is certainly positive.
     pub(crate) one_positive: u8,
 }
 
-/// The orientations of p1 q1 p2 q2 and of p1 r1 r2 p2, for corners p1 q1 r1 of A and p2 q2 r2 of B.
+/// Orientations of `p1 q1 p2 q2` and `p1 r1 r2 p2`, for corners p1, q1, r1 of A and p2, q2, r2 of
+/// B.
 #[inline(always)]
-pub(crate) fn line_signs<I: Simd, S: Coordinate>(i: I, corners: &Corners<S>) -> LineSigns {
+pub(crate) fn line_signs<I: Simd, S: Coordinate>(i: I, corners: &TrianglePairs<S>) -> LineSigns {
     let [q1, r1, p2, q2, r2] = corners.differences(i, [(1, 0), (2, 0), (3, 0), (4, 0), (5, 0)]);
     let (lq1, lr1, lp2) = (length(q1), length(r1), length(p2));
     let (lq2, lr2) = (length(q2), length(r2));
@@ -143,13 +136,39 @@ pub(crate) fn line_signs<I: Simd, S: Coordinate>(i: I, corners: &Corners<S>) -> 
     }
 }
 
-/// The largest component.
+/// Largest component of a vector, by magnitude.
 #[inline(always)]
 fn length<I: Simd>([x, y, z]: Vectors<I>) -> f32x8<I> {
     x.abs().max(y.abs()).max(z.abs())
 }
 
-/// Certainly positive, certainly negative: of n . t and `ROOM` times |e1| |e2| |t|.
+/// Certainly positive and certainly negative lanes, from n . t and `ROOM` times `|e1| |e2| |t|`.
+///
+/// # Rounding
+///
+/// For points p0, p1, p2, q let `e1 = p1 - p0`, `e2 = p2 - p0`, `n = e1 x e2`, `t = q - p0`. Let
+/// `|v|` be the largest component of v, and u = 2^-24.
+///
+/// - Each difference has one rounding to `f32`. Differences of `f64` have a second one, 2^29 times
+///   smaller.
+/// - Each component of n has two differences, a product and a subtraction.
+/// - n . t has another difference, a product and two sums.
+///
+/// That is eight roundings on every path. n . t is six products of magnitude at most `|e1| |e2|
+/// |t|`. So the computed value is off by at most `8 u 6 |e1| |e2| |t|`, to first order. A ninth u
+/// covers the rest and the rounding of the bound:
+///
+/// ```text
+/// |n . t| > 54 u |e1| |e2| |t|    the sign is certain
+/// ```
+///
+/// # Underflow
+///
+/// Each step below the normal range loses at most 2^-126, times two of the lengths. Such steps are
+/// differences of `f64` that are no normal `f32`, products that underflow, and everything if the
+/// thread flushes subnormals to zero. The loss is less than the slack of the ninth u if every
+/// length is at least 2^-40, which is [`SHORTEST`]. Shorter lengths, zero among them, are left to
+/// exact arithmetic. Comparisons are strict, so infinities and NaN are not certain either.
 #[inline(always)]
 fn compare<I: Simd>(value: f32x8<I>, size: f32x8<I>) -> [mask32x8<I>; 2] {
     let bound = size * RELATIVE_ERROR;
@@ -164,7 +183,8 @@ mod tests {
     use crate::kernels::{Instructions, dispatch};
     use pliant_oracle::{Class, Random, fits_f32, orientation as sign};
 
-    /// How many of the signs of eight pairs were certain; all of those are right, the same with all instructions.
+    /// Counts certain signs of eight pairs. Asserts that each is right, and equal for all
+    /// instruction sets.
     fn check<S: Coordinate>(pairs: &[[[[f64; 3]; 3]; 2]; 8], of: impl Fn(f64) -> S) -> u32 {
         let points = |side: usize| -> Vec<[S; 3]> {
             let corners = pairs.iter().flat_map(|pair| pair[side]);
@@ -176,7 +196,7 @@ mod tests {
             let first = 3 * lane as u32;
             vertices[lane] = [0, 1, 2, 0, 1, 2].map(|corner| TreeVertex(first + corner));
         }
-        let corners = Corners {
+        let corners = TrianglePairs {
             positions: [&positions[0], &positions[1]],
             vertices,
         };
@@ -236,7 +256,7 @@ mod tests {
         let (mut certain, mut certain_narrow) = (0, 0);
         for scale in [0, -40, -60, -126, -149, 60, 120].map(|exponent| 2f64.powi(exponent)) {
             for class in Class::ALL {
-                // Of scales so mixed that products overflow in single precision, more.
+                // More rounds for scales so mixed that products overflow in single precision.
                 let rounds = if class == Class::Scales { 3000 } else { 60 };
                 for _ in 0..rounds {
                     let pairs: [[[[f64; 3]; 3]; 2]; 8] = std::array::from_fn(|_| {

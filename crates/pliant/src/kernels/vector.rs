@@ -1,12 +1,12 @@
 //! Vectors of three components, which are numbers or registers of them.
 //!
-//! Sums go from the first component to the last, and nothing is fused: bounds on rounding count on
-//! that.
+//! Sums go from the first component to the last, and nothing is fused: the bounds on rounding rely
+//! on that.
 
 use crate::geometry::Real;
 use std::ops::{Add, Mul, Sub};
 
-/// Three components: one vector, or as many side by side as a register has lanes.
+/// Three components: one vector, or one vector for each lane of a register.
 pub(super) type Vector<V> = [V; 3];
 
 #[inline(always)]
@@ -46,7 +46,7 @@ pub(super) fn cross<V: Copy + Sub<Output = V> + Mul<Output = V>>(
     ]
 }
 
-/// One point less another, in double precision; behind each is padding.
+/// Difference of two points in double precision. The fourth number of each is padding.
 #[inline(always)]
 pub(super) fn difference<S: Real>(p: &[S; 4], q: &[S; 4]) -> Vector<f64> {
     minus(position(p), position(q))

@@ -1,7 +1,9 @@
-//! A set of numbers, a bit each.
+//! Bit set of numbers: one bit each.
 
 use crate::held::held;
 
+/// Growable set of small numbers, which keeps count. Memory: a bit for each number up to the
+/// largest.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Bits {
     words: Vec<u64>,
@@ -16,11 +18,12 @@ impl Bits {
         word.is_some_and(|word| word >> (number % 64) & 1 == 1)
     }
 
-    /// How many numbers are.
+    /// Returns how many numbers are in the set. O(1).
     pub(crate) fn count(&self) -> usize {
         self.count
     }
 
+    /// Adds a number.
     pub(crate) fn insert(&mut self, number: u32) {
         let place = number as usize / 64;
         if place >= self.words.len() {
@@ -30,6 +33,7 @@ impl Bits {
         self.words[place] |= 1 << (number % 64);
     }
 
+    /// Removes a number, if it is in the set.
     pub(crate) fn remove(&mut self, number: u32) {
         if self.has(number) {
             self.words[number as usize / 64] &= !(1 << (number % 64));
@@ -37,7 +41,7 @@ impl Bits {
         }
     }
 
-    /// Takes out all numbers from one on. Cost: linear in how far the largest is behind that one.
+    /// Removes all numbers from `first` on. Cost: linear in the distance from there to the largest.
     pub(crate) fn cut_back(&mut self, first: u32) {
         let place = first as usize / 64;
         let Some(last) = self.words.get_mut(place) else {

@@ -1,44 +1,49 @@
-//! Which triangles hang together: those that share a vertex, and those that these share one with, and so on.
+//! Connected components of a mesh over shared vertices, by union-find.
 
 use super::topology::EMPTY;
 
-/// The component of an empty number.
+/// Component of an empty triangle number: a sentinel.
 const NO_COMPONENT: u32 = u32::MAX;
 
-/// For each triangle its component; numbered in the order of their first triangles. How many there are. Cost: O(m + n), about.
+/// Labels each triangle with its connected component; returns the labels and how many there are.
+///
+/// Triangles that share a vertex are connected. Components are numbered in the order of their first
+/// triangles. Cost: about O(m + n) for m triangles and n vertices.
 pub(crate) fn components(triangles: &[[u32; 3]], vertices: usize) -> (Vec<u32>, usize) {
-    // Of each vertex another of its component, of one of them itself.
-    let mut next: Vec<u32> = (0..vertices as u32).collect();
+    // Union-find: the parent of each vertex; a root is its own parent.
+    let mut parents: Vec<u32> = (0..vertices as u32).collect();
     for &[a, b, c] in triangles.iter().filter(|&&corners| corners != EMPTY) {
-        let first = leader(&mut next, a);
+        let first = find_root(&mut parents, a);
         for other in [b, c] {
-            let other = leader(&mut next, other);
-            next[other as usize] = first;
+            let other = find_root(&mut parents, other);
+            parents[other as usize] = first;
         }
     }
-    let mut of_leader = vec![NO_COMPONENT; vertices];
+    let mut of_root = vec![NO_COMPONENT; vertices];
     let mut count = 0;
     let of_triangle = |&corners: &[u32; 3]| {
         if corners == EMPTY {
             return NO_COMPONENT;
         }
-        let of_leader = &mut of_leader[leader(&mut next, corners[0]) as usize];
-        if *of_leader == NO_COMPONENT {
-            *of_leader = count;
+        let of_root = &mut of_root[find_root(&mut parents, corners[0]) as usize];
+        if *of_root == NO_COMPONENT {
+            *of_root = count;
             count += 1;
         }
-        *of_leader
+        *of_root
     };
     let of_triangles = triangles.iter().map(of_triangle).collect();
     (of_triangles, count as usize)
 }
 
-/// What stands for all things that one is joined with, of things each of which has another that it is joined with, or itself. The way to
-/// it is halved in passing.
-pub(crate) fn leader(next: &mut [u32], mut thing: u32) -> u32 {
-    while next[thing as usize] != thing {
-        let nearer = next[next[thing as usize] as usize];
-        next[thing as usize] = nearer;
+/// Union-find root of `thing`, with path halving.
+///
+/// `parents` holds the parent of each thing; a root is its own parent. To unite two sets, one root
+/// becomes the parent of the other.
+pub(crate) fn find_root(parents: &mut [u32], mut thing: u32) -> u32 {
+    while parents[thing as usize] != thing {
+        let nearer = parents[parents[thing as usize] as usize];
+        parents[thing as usize] = nearer;
         thing = nearer;
     }
     thing

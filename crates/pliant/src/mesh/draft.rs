@@ -1,6 +1,7 @@
-//! What an edit would make of a mesh: every step is looked at as it comes, and nothing has changed until all were good.
+//! Draft of an edit: every step is checked, and the mesh is unchanged until all steps are good.
 //!
-//! Cost: what the steps name, and the triangles at the vertices of these; whatever the size of the mesh.
+//! Cost: in proportion to the triangles and vertices that the steps name, and the triangles at
+//! these vertices. The size of the mesh does not matter.
 
 use super::topology::{EMPTY, check_counts};
 use super::{Bits, Changed, Topology, TrianglesAt};
@@ -8,41 +9,45 @@ use crate::ErrorKind;
 use crate::edit::Step;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A mesh and what some steps have made of it.
+/// Overlay of changes over a mesh: the mesh after some steps of an edit.
 pub(crate) struct Draft<'m, S> {
     topology: &'m Topology,
     at: &'m TrianglesAt,
-    /// The vertices that are empty before.
+    /// Vertices that are empty before the edit.
     empty: &'m Bits,
-    /// Where a vertex is.
+    /// Returns the position that a vertex has before the edit.
     position_of: &'m dyn Fn(u32) -> [S; 3],
     /// How many numbers of triangles and of vertices there are by now.
     triangles: usize,
     vertices: usize,
-    /// The corners of triangles that were changed, and the vertices that came to have triangles by that, with these.
+    /// Corners of the triangles that steps have set.
     corners: BTreeMap<u32, [u32; 3]>,
+    /// Pairs of a vertex and a triangle that steps gave it as a corner.
     came: BTreeSet<[u32; 2]>,
-    /// Where vertices are that have come, or come again.
+    /// Positions of vertices that are new, or placed again.
     positions: BTreeMap<u32, [S; 3]>,
-    /// Of vertices that have come, the one they were split from.
+    /// For vertices made by splits: the vertex before the edit that they descend from.
     split_from: BTreeMap<u32, u32>,
-    /// Vertices that became others, and those that have come since and have had no triangle yet.
+    /// Vertices that were merged into others.
     merged: BTreeSet<u32>,
+    /// Vertices that were added or placed and have had no triangle yet.
     alone: BTreeSet<u32>,
+    /// How many triangles are not empty.
     live: usize,
 }
 
-/// What an edit comes to.
+/// Result of a draft: all changes that the edit makes.
 #[derive(Debug)]
 pub(crate) struct Outcome<S> {
-    /// Triangles whose corners are others, in order.
+    /// Triangles whose corners change, ascending.
     pub(crate) changed: Vec<Changed>,
-    /// How many numbers there are then.
+    /// How many numbers of triangles and of vertices there are after the edit.
     pub(crate) triangles: usize,
     pub(crate) vertices: usize,
-    /// Vertices that were empty or not there, with their positions, in order.
+    /// Vertices that were empty or did not exist, with their positions, ascending.
     pub(crate) new_vertices: Vec<(u32, [S; 3])>,
-    /// Of those of them that were split from others, which they were before the edit; none of those that were not there.
+    /// For new vertices made by splits: the vertex before the edit that they descend from, if there
+    /// is one.
     pub(crate) split_from: BTreeMap<u32, u32>,
     /// Vertices that no triangle uses any more, in order.
     pub(crate) emptied: Vec<u32>,
@@ -72,7 +77,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         }
     }
 
-    /// Takes a step, or refuses it.
+    /// Applies a step, or refuses it.
     pub(crate) fn take(&mut self, step: &Step<S>) -> Result<(), ErrorKind> {
         match step {
             Step::AddVertices(positions) => {
@@ -140,7 +145,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         Ok(())
     }
 
-    /// What all steps come to; refused if no triangle is left.
+    /// Returns the changes of all steps; refuses if no triangle is left.
     pub(crate) fn finish(self) -> Result<Outcome<S>, ErrorKind> {
         if self.live == 0 {
             return Err(ErrorKind::NoTriangles);
@@ -167,6 +172,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         })
     }
 
+    /// Adds a vertex behind all others; refuses if there are too many.
     fn add_vertex(&mut self, position: [S; 3]) -> Result<u32, ErrorKind> {
         check_counts(self.triangles, self.vertices + 1)?;
         let vertex = self.vertices as u32;
@@ -175,6 +181,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         Ok(vertex)
     }
 
+    /// Gives a number of a vertex a position, and with that a vertex.
     fn place(&mut self, vertex: u32, position: [S; 3]) {
         self.positions.insert(vertex, position);
         self.merged.remove(&vertex);
@@ -182,7 +189,8 @@ impl<'m, S: Copy> Draft<'m, S> {
         self.split_from.remove(&vertex);
     }
 
-    /// The vertex of the mesh before that one was split from, or is; none of one that came by itself.
+    /// Returns the vertex before the edit that `vertex` is, or was split from; none if the edit
+    /// added it.
     fn before_splits(&self, vertex: u32) -> Option<u32> {
         if self.positions.contains_key(&vertex) {
             return self.split_from.get(&vertex).copied();
@@ -190,22 +198,25 @@ impl<'m, S: Copy> Draft<'m, S> {
         Some(vertex)
     }
 
+    /// Returns the position of a vertex by now.
     fn position(&self, vertex: u32) -> [S; 3] {
         let placed = self.positions.get(&vertex).copied();
         placed.unwrap_or_else(|| (self.position_of)(vertex))
     }
 
-    /// The corners of a number before any step.
+    /// Returns the corners of a triangle before the edit; [`EMPTY`] if it did not exist.
     fn corners_before(&self, triangle: u32) -> [u32; 3] {
         let before = self.topology.triangles().get(triangle as usize);
         before.copied().unwrap_or(EMPTY)
     }
 
+    /// Returns the corners of a triangle by now.
     fn corners(&self, triangle: u32) -> [u32; 3] {
         let changed = self.corners.get(&triangle).copied();
         changed.unwrap_or_else(|| self.corners_before(triangle))
     }
 
+    /// Sets the corners of a triangle; [`EMPTY`] removes it.
     fn set(&mut self, triangle: u32, corners: [u32; 3]) {
         self.live -= usize::from(self.corners(triangle) != EMPTY);
         self.live += usize::from(corners != EMPTY);
@@ -218,7 +229,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         self.corners.insert(triangle, corners);
     }
 
-    /// The triangles that have a vertex; some of them more than once.
+    /// Returns the triangles that have a vertex by now, some of them more than once.
     fn triangles_at(&self, vertex: u32) -> impl Iterator<Item = u32> {
         let before = self.at.of(vertex);
         let came = self.came.range([vertex, 0]..=[vertex, u32::MAX]);
@@ -226,11 +237,13 @@ impl<'m, S: Copy> Draft<'m, S> {
         all.filter(move |&triangle| self.corners(triangle).contains(&vertex))
     }
 
+    /// Whether a number of a vertex is empty by now.
     fn is_empty(&self, vertex: u32) -> bool {
         self.merged.contains(&vertex)
             || self.empty.has(vertex) && !self.positions.contains_key(&vertex)
     }
 
+    /// Refuses a number of a vertex that does not exist.
     fn check_number(&self, vertex: u32) -> Result<(), ErrorKind> {
         let vertices = self.vertices;
         if vertex as usize >= vertices {
@@ -239,6 +252,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         Ok(())
     }
 
+    /// Refuses a number that does not exist or is empty.
     fn check_vertex(&self, vertex: u32) -> Result<(), ErrorKind> {
         self.check_number(vertex)?;
         if self.is_empty(vertex) {
@@ -247,6 +261,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         Ok(())
     }
 
+    /// Refuses a number of a triangle that does not exist.
     fn check_triangle(&self, triangle: u32) -> Result<(), ErrorKind> {
         let triangles = self.triangles;
         if triangle as usize >= triangles {
@@ -258,6 +273,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         Ok(())
     }
 
+    /// Returns the corners of a triangle; refuses a number that does not exist or is empty.
     fn live_corners(&self, triangle: u32) -> Result<[u32; 3], ErrorKind> {
         self.check_triangle(triangle)?;
         let corners = self.corners(triangle);
@@ -267,6 +283,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         Ok(corners)
     }
 
+    /// Refuses corners that are no vertices.
     fn check_corners(&self, triangle: u32, corners: [u32; 3]) -> Result<(), ErrorKind> {
         for vertex in corners {
             if vertex as usize >= self.vertices {
@@ -282,7 +299,7 @@ impl<'m, S: Copy> Draft<'m, S> {
     }
 }
 
-/// Corners with one vertex in place of another.
+/// Replaces one vertex among corners by another.
 fn renamed(corners: [u32; 3], from: u32, to: u32) -> [u32; 3] {
     corners.map(|vertex| if vertex == from { to } else { vertex })
 }

@@ -1,20 +1,20 @@
-//! The edges of a mesh, sorted by their ends: a counting sort by the lower ends, then a sort of
-//! each run.
+//! Sorted edges of a mesh: a counting sort by their lower ends, then a sort of each run.
 //!
-//! Linear, apart from the sorts of the edges at one vertex.
+//! O(m + n) for m triangles and n vertices, apart from sorting the edges at one vertex.
 
-/// The number of triangles or vertices between two looks whether somebody wants to stop.
+/// Triangles or vertices between two checks whether to stop.
 pub(super) const UNINTERRUPTED: usize = 1 << 14;
 
-/// Edges in the order of their ends, each once, the smaller end first.
+/// Edges sorted by their ends, each once, the smaller end first.
 pub(super) struct SortedEdges {
     pub(super) edges: Vec<[u32; 2]>,
+    /// Where the edges with each lower end begin, and the end of the last: CSR offsets.
     firsts: Vec<u32>,
 }
 
 impl SortedEdges {
-    /// The edges of which `is_wanted` says so, by how many triangles have each. `None` if `stop`
-    /// said so on the way.
+    /// Sorts the edges for which `is_wanted` holds, by the number of triangles that have each.
+    /// Returns `None` if `stop` returned true.
     pub(super) fn new(
         triangles: &[[u32; 3]],
         vertices: usize,
@@ -30,7 +30,7 @@ impl SortedEdges {
             higher[*place as usize] = high;
             *place += 1;
         })?;
-        // The run of each vertex ends now at `next`, where the run of the one behind it began.
+        // The run of each vertex now ends at `next`, where the run behind it began before.
         let mut edges = Vec::with_capacity(higher.len() / 2 + 1);
         let mut firsts = Vec::with_capacity(vertices + 1);
         let mut start = 0;
@@ -39,9 +39,11 @@ impl SortedEdges {
             let end = next[vertex] as usize;
             let others = &mut higher[start..end];
             others.sort_unstable();
-            let each = others.chunk_by(|a, b| a == b);
-            let wanted = each.filter(|same| is_wanted(same.len()));
-            edges.extend(wanted.map(|same| [vertex as u32, same[0]]));
+            for same in others.chunk_by(|a, b| a == b) {
+                if is_wanted(same.len()) {
+                    edges.push([vertex as u32, same[0]]);
+                }
+            }
             start = end;
             if vertex % UNINTERRUPTED == 0 && stop() {
                 return None;
@@ -53,15 +55,16 @@ impl SortedEdges {
         Some(Self { edges, firsts })
     }
 
-    /// The number of the edge with these ends, if there is one.
+    /// Returns the number of the edge with these ends, if there is one.
     #[inline]
     pub(super) fn number_of(&self, ends: [u32; 2]) -> Option<u32> {
         number_of(&self.edges, &self.firsts, ends)
     }
 }
 
-/// The number of the edge with these ends among sorted ones; none of one vertex twice. `firsts`
-/// says where the edges with each lower end begin.
+/// Number of the edge with these ends among sorted edges, by binary search.
+///
+/// None if both ends are one vertex. `firsts` says where the edges with each lower end begin.
 #[inline]
 pub(super) fn number_of(edges: &[[u32; 2]], firsts: &[u32], [a, b]: [u32; 2]) -> Option<u32> {
     if a == b {
@@ -73,7 +76,7 @@ pub(super) fn number_of(edges: &[[u32; 2]], firsts: &[u32], [a, b]: [u32; 2]) ->
     (edges.get(number) == Some(&[low, high])).then_some(number as u32)
 }
 
-/// Where edges with each lower end begin, if these are in order; and how many there are.
+/// CSR offsets of sorted edges: where those with each lower end begin, and how many there are.
 pub(super) fn firsts_of(edges: &[[u32; 2]], vertices: usize) -> Vec<u32> {
     let mut firsts = vec![0; vertices + 1];
     for [low, _] in edges {
@@ -83,7 +86,7 @@ pub(super) fn firsts_of(edges: &[[u32; 2]], vertices: usize) -> Vec<u32> {
     firsts
 }
 
-/// Makes each number the sum of all up to it: the prefix sum.
+/// Prefix sum in place: each number becomes the sum of all up to it.
 fn sum_up(counts: &mut [u32]) {
     let mut sum = 0;
     for count in counts {
@@ -92,14 +95,22 @@ fn sum_up(counts: &mut [u32]) {
     }
 }
 
-/// Shows the edges of all triangles; `None` if `stop` said so on the way.
+/// Calls `found` with the edges of all triangles, the smaller end first. Returns `None` if `stop`
+/// returned true. A triangle that runs along an edge twice has it once.
 pub(super) fn each_edge(
     triangles: &[[u32; 3]],
     stop: &dyn Fn() -> bool,
     mut found: impl FnMut([u32; 2]),
 ) -> Option<()> {
     for some in triangles.chunks(UNINTERRUPTED) {
-        some.iter().flat_map(edges_of).for_each(&mut found);
+        for &[a, b, c] in some {
+            let mut sides = sides([a, b, c]).into_iter();
+            if a != b && b != c && c != a {
+                sides.for_each(&mut found);
+            } else if let Some(edge) = sides.find(|[low, high]| low != high) {
+                found(edge);
+            }
+        }
         if stop() {
             return None;
         }
@@ -107,17 +118,15 @@ pub(super) fn each_edge(
     Some(())
 }
 
-/// The edges of a triangle, the smaller end first; one that runs along an edge twice has it once.
-pub(super) fn edges_of(&[a, b, c]: &[u32; 3]) -> impl Iterator<Item = [u32; 2]> {
-    let has_two = a == b || b == c || c == a;
-    let edges = sides([a, b, c])
-        .into_iter()
-        .filter(|[low, high]| low != high);
-    edges.take(if has_two { 1 } else { 3 })
+/// Sides of a triangle that have two different ends.
+#[cfg(test)]
+pub(super) fn edges_of(&corners: &[u32; 3]) -> impl Iterator<Item = [u32; 2]> {
+    sides(corners).into_iter().filter(|[low, high]| low != high)
 }
 
-/// The ends of the three sides of a triangle, the smaller first, from its first corner on. A side
-/// whose corners are one vertex has it twice.
+/// Ends of the three sides of a triangle, the smaller first, from its first corner on.
+///
+/// A side between two equal corners has that vertex twice.
 pub(super) fn sides([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
     [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
 }

@@ -1,10 +1,10 @@
-//! The edges of a mesh, and which triangle each vertex and each edge belongs to.
+//! Edges of a mesh, and the one triangle that each vertex and each edge belongs to.
 //!
-//! Each belongs to one of its triangles (representative triangles: Curtis, Tamstorf, Manocha 2008), the first in tree order. Vertices are
-//! numbered in the order in which triangles first use them, and edges are here numbered so too. So those that belong to a run of
-//! triangles are a run of numbers, and pairs of runs are looked at once each and never twice for one pair of elements.
-//!
-//! Where the mesh is edited, edges keep their numbers: see `follow`.
+//! An element belongs to the first of its triangles in tree order (representative triangles:
+//! Curtis, Tamstorf, Manocha 2008). Vertices and edges are numbered in the order in which triangles
+//! first use them. So the elements of a run of triangles are runs of numbers. Each pair of elements
+//! comes up once, in one pair of runs. Where the mesh is edited, edges keep their numbers: see
+//! `follow`.
 
 mod edge_index;
 mod follow;
@@ -18,26 +18,30 @@ pub(crate) use follow::Changed;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-/// The edges of a mesh, as the caller numbers them and in tree order.
+/// Edges of a mesh, by the caller's numbers and in tree order.
 #[derive(Clone, Debug)]
 pub(crate) struct Elements {
-    /// The two ends of each edge, as the caller numbers vertices, the smaller first; [`NO_EDGE`] where a number is empty. The caller's edge
-    /// numbers are places here. Sorted, as long as the mesh was not edited.
+    /// Ends of each edge, by the caller's numbers of edges and vertices, the smaller end first.
+    ///
+    /// `NO_EDGE` where a number is empty. Sorted, as long as the mesh was not edited.
     callers: Vec<[u32; 2]>,
-    /// The ends of each edge in tree order.
+    /// Ends of each edge in tree order.
     ends: Vec<[TreeVertex; 2]>,
-    /// The caller's number of each.
+    /// Caller's number of each edge in tree order.
     numbers: Vec<u32>,
-    /// For each triangle the first vertex and the first edge that belong to it or to a later one; and how many there are.
+    /// For each triangle the first vertex and edge that belong to it or to later ones: CSR offsets,
+    /// which end with the totals.
     firsts: Vec<[u32; 2]>,
-    /// For each of the caller's vertices its number in tree order, once somebody asks.
+    /// Number in tree order of each of the caller's vertices; made when first asked for.
     tree_vertices: OnceLock<Box<[TreeVertex]>>,
-    /// Once the mesh is edited.
+    /// Index for edits, once the mesh is edited.
     index: Option<Box<EdgeIndex>>,
 }
 
 impl Elements {
-    /// Of a mesh in tree order; `None` if `stop` said so on the way. Linear, but for the edges at one vertex, which are sorted.
+    /// Numbers the edges of a mesh in tree order. Returns `None` if `stop` returned true.
+    ///
+    /// O(m + n) for m triangles and n vertices, apart from sorting the edges at one vertex.
     pub(crate) fn new(topology: &Topology, order: &Order, stop: &dyn Fn() -> bool) -> Option<Self> {
         let triangles = topology.triangles();
         let callers = SortedEdges::new(triangles, topology.vertex_count(), |_| true, stop)?;
@@ -50,48 +54,54 @@ impl Elements {
             index: None,
         };
         let mut is_given = vec![false; callers.edges.len()];
-        elements.give_to_triangles(order, TreeTriangle(0), 0, stop, |triangle, side, _| {
-            let ends = SIDES[side].map(|i| order.corners(triangle)[i]);
-            // An orphan is called what its alias is.
-            if ends.iter().any(|end| order.orphans().has(end.0)) {
-                return None;
-            }
-            // A triangle that was taken out may have had edges of its own.
-            let number = callers.number_of(ends.map(|end| order.caller_vertex(end).0))?;
-            let was_given = std::mem::replace(&mut is_given[number as usize], true);
-            (!was_given).then_some(number)
-        })?;
+        let numbers = |triangle: TreeTriangle| {
+            let corners = order.corners(triangle).map(|corner| {
+                // An orphan goes by the number of its alias, which may have no such edge.
+                let is_orphan = order.orphans().has(corner.0);
+                (!is_orphan).then(|| order.caller_vertex(corner).0)
+            });
+            SIDES.map(|[i, j]| {
+                // Edges that only removed triangles have are no edges of the mesh.
+                let ends = [corners[i]?, corners[j]?];
+                callers.number_of(ends)
+            })
+        };
+        let is_new = |number: u32, _| !std::mem::replace(&mut is_given[number as usize], true);
+        elements.give_to_triangles(order, TreeTriangle(0), 0, stop, numbers, is_new)?;
         elements.callers = callers.edges;
         Some(elements)
     }
 
-    /// Gives triangles from a place on, in tree order, the vertices and edges that none before them
-    /// has.
+    /// Assigns to each triangle from `first` on the vertices and edges that no earlier one has.
     ///
-    /// The first `used` vertices are known. `new_edge` is told a triangle, a side of it, and the
-    /// number in tree order that its edge would have. It returns the caller's number of the edge if
-    /// none has it yet. `None` if `stop` said so.
+    /// Goes in tree order. The first `used` vertices are assigned before. `numbers` gives the
+    /// caller's numbers of the sides of a triangle that are edges. `is_new` says whether no triangle
+    /// has the edge yet; it is told the number in tree order that it would get. Returns `None` if
+    /// `stop` returned true.
     fn give_to_triangles(
         &mut self,
         order: &Order,
         first: TreeTriangle,
         mut used: u32,
         stop: &dyn Fn() -> bool,
-        mut new_edge: impl FnMut(TreeTriangle, usize, u32) -> Option<u32>,
+        numbers: impl Fn(TreeTriangle) -> [Option<u32>; 3],
+        mut is_new: impl FnMut(u32, u32) -> bool,
     ) -> Option<()> {
-        for at in first.0..order.all_corners().len() as u32 {
-            let corners = order.corners(TreeTriangle(at));
+        for at in (first.0..order.all_corners().len() as u32).map(TreeTriangle) {
+            let corners = order.corners(at);
             self.firsts.push([used, self.ends.len() as u32]);
             used = corners
                 .iter()
                 .fold(used, |used, corner| used.max(corner.0 + 1));
-            for (side, ends) in SIDES.into_iter().enumerate() {
-                if let Some(number) = new_edge(TreeTriangle(at), side, self.ends.len() as u32) {
-                    self.ends.push(ends.map(|i| corners[i]));
+            for ([i, j], number) in SIDES.into_iter().zip(numbers(at)) {
+                if let Some(number) = number
+                    && is_new(number, self.ends.len() as u32)
+                {
+                    self.ends.push([corners[i], corners[j]]);
                     self.numbers.push(number);
                 }
             }
-            if at.is_multiple_of(UNINTERRUPTED as u32) && stop() {
+            if at.0.is_multiple_of(UNINTERRUPTED as u32) && stop() {
                 return None;
             }
         }
@@ -99,32 +109,32 @@ impl Elements {
         Some(())
     }
 
-    /// The edges in the caller's order.
+    /// Returns the ends of all edges, by the caller's numbers.
     pub(crate) fn callers(&self) -> &[[u32; 2]] {
         &self.callers
     }
 
-    /// The vertices that belong to a run of triangles.
+    /// Returns the vertices that belong to a run of triangles. O(1).
     #[inline]
     pub(crate) fn vertices_of(&self, run: TriangleRun) -> Range<u32> {
         let [first, end] = run.ends();
         self.firsts[first][0]..self.firsts[end][0]
     }
 
-    /// The edges that belong to a run of triangles.
+    /// Returns the edges that belong to a run of triangles. O(1).
     #[inline]
     pub(crate) fn edges_of(&self, run: TriangleRun) -> Range<u32> {
         let [first, end] = run.ends();
         self.firsts[first][1]..self.firsts[end][1]
     }
 
-    /// The ends of all edges in tree order.
+    /// Returns the ends of all edges in tree order.
     #[inline]
     pub(crate) fn ends(&self) -> &[[TreeVertex; 2]] {
         &self.ends
     }
 
-    /// For each of the caller's vertices its number in the order of the tree, which is that of the mesh.
+    /// Returns the number in tree order of each of the caller's vertices. `order` is the mesh's.
     pub(crate) fn tree_vertices(&self, order: &Order) -> &[TreeVertex] {
         self.tree_vertices.get_or_init(|| {
             let of_tree = order.vertex_order();
@@ -136,7 +146,8 @@ impl Elements {
         })
     }
 
-    /// An edge whose ends in tree order are not those that it has, if there is one.
+    /// Finds an edge whose recorded ends in tree order are wrong; `place` gives the true ones.
+    /// Returns its caller's number.
     pub(crate) fn misplaced(&self, place: impl Fn(u32) -> TreeVertex) -> Option<u32> {
         let is_misplaced = |&(edge, number): &(u32, u32)| {
             let mut expected = self.callers[number as usize].map(|end| place(end).0);
@@ -150,17 +161,17 @@ impl Elements {
         live.find(is_misplaced).map(|(_, number)| number)
     }
 
-    /// The caller's numbers of all edges in tree order.
+    /// Returns the caller's numbers of all edges, in tree order.
     #[inline]
     pub(crate) fn caller_edges(&self) -> &[u32] {
         &self.numbers
     }
 }
 
-/// The corners at the ends of each side of a triangle.
+/// Corners at the two ends of each side of a triangle.
 const SIDES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
-/// Some triangles in a row, in tree order.
+/// Run of triangles: consecutive in tree order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct TriangleRun {
     pub(crate) first: TreeTriangle,
@@ -168,13 +179,13 @@ pub(crate) struct TriangleRun {
 }
 
 impl TriangleRun {
-    /// The first, and the one behind the last.
+    /// Returns the first triangle, and the one behind the last.
     #[inline]
     fn ends(self) -> [usize; 2] {
         [self.first.index(), self.first.index() + self.count as usize]
     }
 
-    /// As the range that it is.
+    /// Returns the triangles as a range of numbers.
     #[inline]
     pub(crate) fn range(self) -> Range<u32> {
         self.first.0..self.first.0 + self.count
@@ -216,7 +227,7 @@ mod tests {
             let named = order.caller_vertex(vertex);
             assert_eq!(elements.tree_vertices(&order)[named.index()], vertex);
         }
-        // What belongs to triangles one after the other is everything that is used, once.
+        // Triangle by triangle, the elements that belong to them are all that is used, once.
         let mut next = [0, 0];
         for triangle in 0..triangles.len() as u32 {
             let run = TriangleRun {

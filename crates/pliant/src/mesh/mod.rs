@@ -1,4 +1,4 @@
-//! Meshes: what the caller said, how a tree orders it, its edges; and edits of it.
+//! Meshes: topology as the caller gave it, tree order, edges, edits as drafts, components, welding.
 
 mod bits;
 mod components;
@@ -11,7 +11,7 @@ mod triangles_at;
 mod weld;
 
 pub(crate) use bits::Bits;
-pub(crate) use components::{components, leader};
+pub(crate) use components::{components, find_root};
 pub(crate) use draft::{Draft, Outcome};
 pub(crate) use elements::{Changed, Elements, TriangleRun};
 pub(crate) use order::{Moved, Order, OrderBuilder};

@@ -1,12 +1,10 @@
-//! How a tree orders a mesh: triangles and vertices in tree order, and the way back to the caller's numbers.
+//! Tree order: how a tree numbers triangles and vertices, and the way back to the caller's numbers.
 //!
-//! The tree orders the triangles so that those below any node are neighbours in memory, and the vertices are numbered in the
-//! order in which these triangles first use them. So the vertices below a node are one run of numbers, plus the few on its
-//! border that an earlier node used first (`tree::VertexSets`). Vertices that no triangle uses come last: they are checked
-//! with the others and are in no box.
-//!
-//! Where a mesh is edited, a vertex that loses its last triangle goes to the end; the number that it had is that of an *orphan*, which only
-//! triangles that were taken out have for a corner. It stands where some vertex does that is used, its alias.
+//! The triangles below any node are a run. Vertices are numbered in the order in which these
+//! triangles first use them. So the vertices below a node are one run of numbers, and a few on its
+//! border that an earlier node uses first (`tree::VertexSets`). Vertices that no triangle uses come
+//! last: they are validated with the others and are in no box. Edits leave *orphans*: see
+//! [`Order::orphan`].
 
 use super::{Bits, Topology};
 use crate::held::held;
@@ -14,51 +12,58 @@ use crate::ids::{CallerTriangle, CallerVertex, TreeTriangle, TreeVertex};
 use crate::threads::Budget;
 use std::ops::Range;
 
-/// A mesh in tree order.
+/// Mesh in tree order.
 #[derive(Clone, Debug)]
 pub(crate) struct Order {
+    /// Corners of every triangle.
     corners: Vec<[TreeVertex; 3]>,
-    /// The caller's number of every triangle.
+    /// Caller's number of every triangle.
     triangles: Vec<u32>,
-    /// The caller's number of every vertex; of an orphan that of its alias.
+    /// Caller's number of every vertex; an orphan has the number of its alias.
     vertices: Vec<u32>,
-    /// Vertices 0..used are corners of some triangle.
+    /// Vertices `0..used` are corners of some triangle, be it removed.
     used: usize,
+    /// Numbers of vertices that only removed triangles have as corners.
     orphans: Bits,
 }
 
-/// An order on its way, made some triangles at a time.
+/// Tree order under construction, made some triangles at a time.
 pub(crate) struct OrderBuilder {
     order: Order,
-    /// For each of the caller's vertices its number in tree order, if a triangle that was looked at uses it.
+    /// Number in tree order of each of the caller's vertices, once a triangle uses it.
     tree_vertices: Vec<u32>,
 }
 
+/// Sentinel: no number in tree order yet.
 const UNSEEN: u32 = u32::MAX;
 
-/// Looks at a triangle that its corners take, and triangles between two looks at the budget.
+/// Looks of the budget that a triangle takes: one a corner.
 const LOOKS: usize = 3;
+/// Triangles between two checks of the budget.
 const AT_ONCE: usize = 256;
 
-/// What happens to the numbers of vertices.
+/// Change of the numbers of vertices.
 pub(crate) enum Moved {
-    /// Two are exchanged.
+    /// Two vertices exchange their numbers.
     Exchanged([TreeVertex; 2]),
-    /// The last is no more.
+    /// The last vertex is removed.
     LastGone,
 }
 
 impl Order {
-    /// With triangle `triangles[t]` of the caller as triangle `t` of the tree.
+    /// Orders a mesh: triangle `triangles[t]` of the caller is triangle `t` of the tree. O(m + n).
     pub(crate) fn new(topology: &Topology, triangles: Vec<u32>) -> Self {
         let mut order = OrderBuilder::new(topology.vertex_count(), triangles);
         order.advance(|it| topology.triangles()[it as usize], &mut Budget::whole());
         order.finish()
     }
 
-    /// Forgets the triangles from a place on, and the vertices that they use first, of which there are `used` before them: these go with
-    /// those that no triangle uses, and orphans are no more. `slots` has for each of the caller's vertices its number here; where two
-    /// of these are exchanged, or the last goes, `moved` is told.
+    /// Removes the triangles from a place on, with the orphans among the vertices that they use
+    /// first.
+    ///
+    /// Of the vertices, `used` are used before these triangles. Others that they use first become
+    /// unused. `slots` has the number here of each of the caller's vertices, and is kept true.
+    /// `moved` is told of each exchange of two numbers, and when the last vertex is removed.
     pub(crate) fn cut_back(
         &mut self,
         triangles: usize,
@@ -87,8 +92,11 @@ impl Order {
         self.used = used;
     }
 
-    /// Gives the vertex at a place, which no triangle uses any more, a number at the end; what it leaves stands where another vertex does,
-    /// by the caller's number. Returns the new number.
+    /// Renumbers a vertex that lost its last triangle to the end; its old number becomes an
+    /// *orphan*. Returns the new number.
+    ///
+    /// Only removed triangles have an orphan as a corner. It stands where another vertex does,
+    /// which is used: its *alias*, by the caller's number.
     pub(crate) fn orphan(&mut self, slot: TreeVertex, alias: u32) -> TreeVertex {
         let vertex = std::mem::replace(&mut self.vertices[slot.index()], alias);
         self.orphans.insert(slot.0);
@@ -96,7 +104,7 @@ impl Order {
         TreeVertex(self.vertices.len() as u32 - 1)
     }
 
-    /// Gives an orphan another alias, unless it is none any more or never had this one.
+    /// Gives an orphan another alias. Returns false if it is no orphan or its alias is not `old`.
     pub(crate) fn set_alias(&mut self, slot: u32, old: u32, new: u32) -> bool {
         let has_old = self.orphans.has(slot) && self.vertices[slot as usize] == old;
         if has_old {
@@ -105,17 +113,17 @@ impl Order {
         has_old
     }
 
-    /// The numbers of orphans.
+    /// Returns the numbers of all orphans.
     pub(crate) fn orphans(&self) -> &Bits {
         &self.orphans
     }
 
-    /// More vertices, which no triangle uses yet, at the end.
+    /// Appends vertices that no triangle uses yet.
     pub(crate) fn add_vertices(&mut self, callers: Range<u32>) {
         self.vertices.extend(callers);
     }
 
-    /// Puts triangles behind all others, in this order; `slots` and `moved` as for [`cut_back`](Self::cut_back).
+    /// Appends triangles in this order; `slots` and `moved` as for [`cut_back`](Self::cut_back).
     pub(crate) fn append(
         &mut self,
         topology: &Topology,
@@ -145,37 +153,40 @@ impl Order {
         }
     }
 
-    /// The corners of all triangles.
+    /// Returns the corners of all triangles.
     pub(crate) fn all_corners(&self) -> &[[TreeVertex; 3]] {
         &self.corners
     }
 
+    /// Returns the corners of a triangle.
     #[inline]
     pub(crate) fn corners(&self, triangle: TreeTriangle) -> [TreeVertex; 3] {
         self.corners[triangle.index()]
     }
 
+    /// Returns the caller's number of a triangle.
     #[inline]
     pub(crate) fn caller_triangle(&self, triangle: TreeTriangle) -> CallerTriangle {
         CallerTriangle(self.triangles[triangle.index()])
     }
 
+    /// Returns the caller's number of a vertex; of an orphan its alias.
     #[inline]
     pub(crate) fn caller_vertex(&self, vertex: TreeVertex) -> CallerVertex {
         CallerVertex(self.vertices[vertex.index()])
     }
 
-    /// The caller's numbers of all triangles.
+    /// Returns the caller's numbers of all triangles.
     pub(crate) fn triangle_order(&self) -> &[u32] {
         &self.triangles
     }
 
-    /// The caller's numbers of all vertices.
+    /// Returns the caller's numbers of all vertices.
     pub(crate) fn vertex_order(&self) -> &[u32] {
         &self.vertices
     }
 
-    /// How many vertices are corners of some triangle; they come first.
+    /// Returns how many vertices are corners of some triangle; they come first.
     pub(crate) fn used_vertices(&self) -> usize {
         self.used
     }
@@ -188,7 +199,7 @@ impl Order {
 }
 
 impl OrderBuilder {
-    /// Of a mesh of so many vertices, as [`Order::new`].
+    /// Begins the order of a mesh that has `vertices` vertices, as [`Order::new`].
     pub(crate) fn new(vertices: usize, triangles: Vec<u32>) -> Self {
         Self {
             order: Order {
@@ -202,7 +213,8 @@ impl OrderBuilder {
         }
     }
 
-    /// Goes on, with the corners of the caller's triangles; returns whether all have their numbers.
+    /// Continues, given the corners of the caller's triangles. Returns whether all triangles are
+    /// done.
     pub(crate) fn advance(
         &mut self,
         corners_of: impl Fn(u32) -> [u32; 3],
@@ -232,7 +244,7 @@ impl OrderBuilder {
         true
     }
 
-    /// The order, when it is done.
+    /// Returns the finished order.
     pub(crate) fn finish(self) -> Order {
         let mut order = self.order;
         order.used = order.vertices.len();

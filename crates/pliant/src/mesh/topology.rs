@@ -1,29 +1,30 @@
-//! What the caller said: triangles by their corners, in the caller's numbers; and what follows from that alone.
+//! Topology of a mesh as the caller gave it: triangles by their corners, in the caller's numbers.
 //!
-//! Numbers stay as they are: a triangle that is taken out leaves its number empty.
+//! Numbers stay as they are: a removed triangle leaves its number empty.
 
 use crate::ErrorKind;
 use crate::held::held;
 use crate::ids::{CallerTriangle, CallerVertex};
 
-/// With more triangles than this, numbers of nodes would not fit 32 bits.
+/// Most triangles of a mesh: with more, numbers of nodes would not fit 32 bits.
 const MAX_TRIANGLES: usize = 1 << 28;
-/// With more vertices than this, no 32-bit number would be left for "none".
+/// Most vertices of a mesh: with more, no 32-bit number would be left as a sentinel.
 const MAX_VERTICES: usize = u32::MAX as usize;
 
-/// The corners of a number that no triangle has.
+/// Corners of an empty number: the sentinel for no triangle.
 pub(crate) const EMPTY: [u32; 3] = [u32::MAX; 3];
 
-/// Validated triangles.
+/// Validated triangles of a mesh.
 #[derive(Clone, Debug)]
 pub(crate) struct Topology {
     triangles: Vec<[u32; 3]>,
+    /// How many vertices there are, used or not.
     vertices: u32,
-    /// How many of the numbers are those of triangles.
+    /// How many numbers have a triangle.
     live: u32,
 }
 
-/// Refuses more triangles or vertices than there can be.
+/// Refuses more triangles or vertices than a mesh can have.
 pub(super) fn check_counts(triangles: usize, vertices: usize) -> Result<(), ErrorKind> {
     let limits = [
         ("triangles", triangles, MAX_TRIANGLES),
@@ -35,7 +36,8 @@ pub(super) fn check_counts(triangles: usize, vertices: usize) -> Result<(), Erro
     }
 }
 
-/// Refuses what no body can be made of.
+/// Refuses a mesh of which no body can be made: no triangles, too many, or a corner out of range.
+/// O(m).
 pub(crate) fn validate(triangles: &[[u32; 3]], vertices: usize) -> Result<(), ErrorKind> {
     if triangles.is_empty() {
         return Err(ErrorKind::NoTriangles);
@@ -54,7 +56,7 @@ pub(crate) fn validate(triangles: &[[u32; 3]], vertices: usize) -> Result<(), Er
 }
 
 impl Topology {
-    /// Of validated triangles.
+    /// Copies validated triangles.
     pub(crate) fn new(triangles: &[[u32; 3]], vertices: usize) -> Self {
         Self {
             triangles: triangles.to_vec(),
@@ -63,19 +65,20 @@ impl Topology {
         }
     }
 
-    /// How many triangles there are, empty numbers not counted.
+    /// Returns how many triangles there are; empty numbers are not counted.
     pub(crate) fn live_count(&self) -> usize {
         self.live as usize
     }
 
-    /// Whether a number is that of a triangle.
+    /// Whether a number has a triangle.
     #[inline]
     pub(crate) fn is_live(&self, triangle: u32) -> bool {
         let corners = self.triangles.get(triangle as usize);
         corners.is_some_and(|&corners| corners != EMPTY)
     }
 
-    /// Gives a number other corners, or none; numbers up to it are there from now on.
+    /// Sets the corners of a number; [`EMPTY`] removes its triangle. Numbers up to it exist from
+    /// now on.
     pub(crate) fn set(&mut self, triangle: u32, corners: [u32; 3]) {
         let triangle = triangle as usize;
         if triangle >= self.triangles.len() {
@@ -87,26 +90,29 @@ impl Topology {
         *place = corners;
     }
 
-    /// There are so many vertices.
+    /// Sets how many vertices there are.
     pub(crate) fn set_vertex_count(&mut self, vertices: usize) {
         self.vertices = vertices as u32;
     }
 
-    /// There are so many numbers of triangles; those that go are empty, and so are those that come.
+    /// Sets how many numbers of triangles there are. Numbers that are cut off are empty before; new
+    /// ones are empty.
     pub(crate) fn set_triangle_count(&mut self, triangles: usize) {
         self.triangles.resize(triangles, EMPTY);
     }
 
-    /// The triangles as the caller gave them; [`EMPTY`] where there is none.
+    /// Returns the corners of all numbers, as the caller gave them; [`EMPTY`] where there is no
+    /// triangle.
     pub(crate) fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
 
-    /// How many vertices there are, used or not.
+    /// Returns how many vertices there are, used or not.
     pub(crate) fn vertex_count(&self) -> usize {
         self.vertices as usize
     }
 
+    /// Returns the corners of a number; [`EMPTY`] if there is no triangle.
     #[inline]
     pub(crate) fn corners(&self, triangle: CallerTriangle) -> [CallerVertex; 3] {
         self.triangles[triangle.index()].map(CallerVertex)
@@ -116,7 +122,7 @@ impl Topology {
 /// Whether two triangles of one mesh have a vertex in common.
 #[inline]
 pub(crate) fn share_a_vertex<V: Copy + PartialEq>(a: [V; 3], b: [V; 3]) -> bool {
-    // No early exit: nine comparisons without a branch are cheaper than one branch that goes wrong.
+    // No early exit: nine comparisons are cheaper than one mispredicted branch.
     let mut shared = false;
     for corner in a {
         for other in b {

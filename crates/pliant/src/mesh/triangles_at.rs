@@ -1,36 +1,39 @@
-//! Which triangles meet at a vertex: lists through the corners of triangles, so that a triangle comes and goes in as many steps as there are
-//! triangles at its corners.
+//! Triangles at each vertex: linked lists through the corners of triangles.
+//!
+//! A triangle is linked in O(1), and unlinked in O(d), with d triangles at its corners.
 
 use super::topology::EMPTY;
 use crate::held::held;
 
-/// The end of a list.
+/// Sentinel: the end of a list.
 const END: u32 = u32::MAX;
 
-/// A corner is known by three times the number of its triangle, and its place in it. Triangles and vertices as the caller numbers them.
+/// Lists of the corners at each vertex, in the caller's numbers.
+///
+/// Corner i of triangle t has the number 3 t + i.
 #[derive(Clone, Debug)]
 pub(crate) struct TrianglesAt {
-    /// For each vertex a corner that is there.
+    /// For each vertex the first corner of its list.
     first: Vec<u32>,
-    /// For each corner another one at the same vertex.
+    /// For each corner the next one at the same vertex.
     next: Vec<u32>,
 }
 
 impl TrianglesAt {
-    /// Cost: linear.
+    /// Links all triangles. O(m + n) for m triangles and n vertices.
     pub(crate) fn new(triangles: &[[u32; 3]], vertices: usize) -> Self {
         let mut all = Self {
             first: vec![END; vertices],
             next: vec![END; 3 * triangles.len()],
         };
-        // From the last on, so that each list begins with the first.
+        // From the last triangle on, so that each list begins with the first.
         for (triangle, &corners) in triangles.iter().enumerate().rev() {
             all.link(triangle as u32, corners);
         }
         all
     }
 
-    /// The triangles at a vertex; one that has it more than once, as often.
+    /// Returns the triangles at a vertex; one that has it at several corners comes as often.
     pub(crate) fn of(&self, vertex: u32) -> impl Iterator<Item = u32> + '_ {
         let corner = |corner: u32| Some(corner).filter(|&corner| corner != END);
         let first = self.first.get(vertex as usize).copied().and_then(corner);
@@ -38,13 +41,13 @@ impl TrianglesAt {
             .map(|corner| corner / 3)
     }
 
-    /// There are so many vertices and numbers of triangles.
+    /// Sets how many vertices and numbers of triangles there are.
     pub(crate) fn resize(&mut self, vertices: usize, triangles: usize) {
         self.first.resize(vertices, END);
         self.next.resize(3 * triangles, END);
     }
 
-    /// A triangle comes, which was not there.
+    /// Links a triangle that is in no list yet. O(1).
     pub(crate) fn link(&mut self, triangle: u32, corners: [u32; 3]) {
         for (corner, vertex) in corners_of(triangle, corners) {
             let first = &mut self.first[vertex as usize];
@@ -53,7 +56,7 @@ impl TrianglesAt {
         }
     }
 
-    /// A triangle goes, which was there.
+    /// Unlinks a triangle. O(d), with d triangles at its corners.
     pub(crate) fn unlink(&mut self, triangle: u32, corners: [u32; 3]) {
         for (corner, vertex) in corners_of(triangle, corners) {
             let after = self.next[corner as usize];
@@ -70,7 +73,7 @@ impl TrianglesAt {
     }
 }
 
-/// The corners of a triangle and the vertices there; none of an empty number.
+/// Corners of a triangle, by number, and the vertex at each; none of an empty number.
 fn corners_of(triangle: u32, corners: [u32; 3]) -> impl Iterator<Item = (u32, u32)> {
     let is_live = corners != EMPTY;
     (3 * triangle..).zip(corners).filter(move |_| is_live)

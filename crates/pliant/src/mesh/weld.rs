@@ -1,13 +1,10 @@
-//! Which vertices become one when boundary edges that coincide are welded.
+//! Welding: boundary edges that coincide within a tolerance, and the vertices that become one by
+//! it.
 //!
-//! A boundary edge is an edge of exactly one triangle. Two of them coincide if their ends do, one by one. Single vertices that coincide are
-//! not welded: two sheets that touch in a point are two sheets. And never are two corners of one triangle, however short its edges are:
-//! no triangle is lost.
-//!
-//! An edge is two *sides*, one for each direction: points of six coordinates. A tree of boxes over these finds those that coincide; whatever
-//! is so small that all in it do is not divided further, for there each is compared with few others, one for each pair of vertices that the
-//! sides before it came to. Two sides whose ends may not become one never may, for vertices that became one stay so: each two are
-//! asked about once.
+//! A boundary edge is an edge of exactly one triangle. Two coincide if their ends do, one by one.
+//! Single vertices that coincide are not welded: two sheets that touch in a point stay two. Two
+//! corners of one triangle are never welded, however short its edges are, so no triangle is lost.
+//! How edges are found: [`Search`].
 
 mod classes;
 
@@ -15,25 +12,29 @@ use super::edges::SortedEdges;
 use classes::Classes;
 use std::ops::Range;
 
-/// What there is to know of positions and a tolerance.
+/// Positions of vertices, and the tolerance within which they coincide.
 pub(crate) struct Nearness<'w> {
+    /// Returns the position of a vertex.
     pub(crate) position: &'w dyn Fn(u32) -> [f64; 3],
+    /// Largest distance between vertices that coincide.
     pub(crate) tolerance: f64,
     /// Whether two points are at most the tolerance apart, exactly.
     pub(crate) are_near: &'w dyn Fn([f64; 3], [f64; 3]) -> bool,
 }
 
-/// Pairs of a vertex that stays and one that becomes the same: the lowest of all that become one stays. Sorted by the second. `None` if
-/// `stop` said so on the way.
+/// Finds the vertices to weld: pairs of one that stays and one that becomes it, sorted by the
+/// second.
 ///
-/// Cost: O(m log m), and for sides that are all within the tolerance as often as there are pairs of vertices that they come to.
+/// Of all vertices that become one, the lowest stays. Returns `None` if `stop` returned true. Cost:
+/// O(m log m). Sides that are all within the tolerance cost O(s g): s sides in g groups, each group
+/// one pair of vertices.
 pub(crate) fn coinciding(
     triangles: &[[u32; 3]],
     vertices: usize,
     near: &Nearness,
     stop: &dyn Fn() -> bool,
 ) -> Option<Vec<[u32; 2]>> {
-    // A boundary edge is that of one triangle.
+    // A boundary edge has one triangle.
     let SortedEdges { edges, .. } =
         SortedEdges::new(triangles, vertices, |count| count == 1, stop)?;
     let sides: Vec<[u32; 2]> = edges.iter().flat_map(|&[a, b]| [[a, b], [b, a]]).collect();
@@ -54,30 +55,37 @@ pub(crate) fn coinciding(
     Some(search.classes.pairs())
 }
 
-/// So few sides are a leaf.
+/// Most sides of a leaf in which all pairs are compared.
 const FEW: usize = 8;
 
-/// A box around sides.
+/// Node of the tree: the box round a run of sides, in six dimensions.
 struct Node {
     lower: [f64; 6],
     upper: [f64; 6],
     below: Below,
 }
 
+/// Contents of a node.
 enum Below {
-    /// Some sides.
+    /// Sides that were not compared yet.
     Leaf(Range<usize>),
-    /// The same once they were compared with each other: where those of each kind are.
-    Kinds(Vec<Range<usize>>),
-    /// The first child is the next node, the second that.
+    /// Sides that were compared with each other, as the runs of their groups.
+    Groups(Vec<Range<usize>>),
+    /// Two children: the next node is the first, this is the second.
     Inner(usize),
 }
 
-/// The search for sides that coincide.
+/// Search for sides that coincide: a bounding volume hierarchy over points of six dimensions.
+///
+/// An edge is two *sides*, one for each direction: the positions of both ends, six coordinates. A
+/// node so small that all its sides coincide is not divided further. Its sides are sorted into
+/// *groups*, whose ends are one each; a new side is compared with one of each group. Two sides that
+/// may not be welded never may later, since welded vertices stay so. So each two groups are asked
+/// about once.
 struct Search<'s> {
     near: &'s Nearness<'s>,
     stop: &'s dyn Fn() -> bool,
-    /// How often it was said that there may be something to stop.
+    /// Calls of [`go_on`](Self::go_on) so far.
     steps: u32,
     sides: Vec<[u32; 2]>,
     nodes: Vec<Node>,
@@ -85,18 +93,19 @@ struct Search<'s> {
 }
 
 impl Search<'_> {
-    /// Looks now and then whether somebody wants to stop.
+    /// Checks at every 256th call whether to stop; `None` if so.
     fn go_on(&mut self) -> Option<()> {
         self.steps = self.steps.wrapping_add(1);
         (!self.steps.is_multiple_of(256) || !(self.stop)()).then_some(())
     }
 
+    /// Returns the point of six coordinates that a side is.
     fn at(&self, [a, b]: [u32; 2]) -> [f64; 6] {
         let [[a, b, c], [d, e, f]] = [a, b].map(self.near.position);
         [a, b, c, d, e, f]
     }
 
-    /// Builds the tree over some sides.
+    /// Builds the tree over a run of sides, divided at the median along the widest axis.
     fn build(&mut self, sides: Range<usize>) -> Option<()> {
         self.go_on()?;
         let (mut lower, mut upper) = ([f64::INFINITY; 6], [f64::NEG_INFINITY; 6]);
@@ -123,7 +132,7 @@ impl Search<'_> {
             below,
         });
         if self.are_all_near(&self.nodes[node]) {
-            // Whatever order they had until now, the lowest are the first.
+            // Whatever order the divisions above left: the lowest come first.
             self.sides[sides].sort_unstable();
         } else if sides.len() > FEW {
             let middle = sides.len() / 2;
@@ -139,14 +148,18 @@ impl Search<'_> {
         Some(())
     }
 
-    /// Whether every two sides in a box coincide: of each end, no coordinate differs by more than half the tolerance, so that the diagonal is
-    /// less than 0.87 of it.
+    /// Whether every two sides in a node coincide.
+    ///
+    /// No coordinate of an end differs by more than half the tolerance, so a diagonal is less than
+    /// 0.87 of it.
     fn are_all_near(&self, node: &Node) -> bool {
         let most = self.near.tolerance / 2.0;
         (0..6).all(|axis| node.upper[axis] - node.lower[axis] <= most)
     }
 
-    /// Whether no side of one box coincides with one of the other. A difference is rounded, but never across the tolerance.
+    /// Whether no side of one node coincides with one of the other.
+    ///
+    /// Differences are rounded, but never across the tolerance.
     fn are_apart(&self, a: &Node, b: &Node) -> bool {
         let gap = |axis: usize| (a.lower[axis] - b.upper[axis]).max(b.lower[axis] - a.upper[axis]);
         let tolerance = self.near.tolerance;
@@ -154,13 +167,13 @@ impl Search<'_> {
             let gaps = [first, first + 1, first + 2].map(|axis| gap(axis).max(0.0));
             gaps.iter().map(|gap| gap * gap).sum::<f64>()
         };
-        // Far from where squares are rounded to nothing: all roundings together are less than that.
+        // The factor covers all roundings, far from where squares are rounded to nothing.
         let most = tolerance * tolerance * (1.0 + 1e-9);
         (0..6).any(|axis| gap(axis) > tolerance)
             || most > 1e-290 && (square(0) > most || square(3) > most)
     }
 
-    /// Whether two sides coincide.
+    /// Whether two sides coincide: both ends do, one by one.
     fn coincide(&self, [a, b]: [u32; 2], [x, y]: [u32; 2]) -> bool {
         let are_near = |p: u32, q: u32| {
             let [p, q] = [p, q].map(self.near.position);
@@ -181,8 +194,8 @@ impl Search<'_> {
                 self.between(node + 1, second)
             }
             Below::Leaf(sides) => {
-                let kinds = if self.are_all_near(&self.nodes[node]) {
-                    self.kinds_of(sides)?
+                let groups = if self.are_all_near(&self.nodes[node]) {
+                    self.groups_of(sides)?
                 } else {
                     for i in sides.clone() {
                         for j in i + 1..sides.end {
@@ -193,42 +206,43 @@ impl Search<'_> {
                     }
                     sides.map(|side| side..side + 1).collect()
                 };
-                self.nodes[node].below = Below::Kinds(kinds);
+                self.nodes[node].below = Below::Groups(groups);
                 self.go_on()
             }
-            Below::Kinds(_) => Some(()),
+            Below::Groups(_) => Some(()),
         }
     }
 
-    /// Makes sides one that all coincide, as far as they may be, and brings those that are one beside each other.
-    fn kinds_of(&mut self, sides: Range<usize>) -> Option<Vec<Range<usize>>> {
-        let mut kinds: Vec<Vec<[u32; 2]>> = Vec::new();
+    /// Welds sides that all coincide, as far as they may be, and sorts them by group. Returns the
+    /// runs of the groups.
+    fn groups_of(&mut self, sides: Range<usize>) -> Option<Vec<Range<usize>>> {
+        let mut groups: Vec<Vec<[u32; 2]>> = Vec::new();
         for place in sides.clone() {
             let side = self.sides[place];
             let mut found = None;
-            for (kind, of_kind) in kinds.iter().enumerate() {
+            for (group, of_group) in groups.iter().enumerate() {
                 self.go_on()?;
-                if self.classes.join(of_kind[0], side) {
-                    found = Some(kind);
+                if self.classes.join(of_group[0], side) {
+                    found = Some(group);
                     break;
                 }
             }
             match found {
-                Some(kind) => kinds[kind].push(side),
-                None => kinds.push(vec![side]),
+                Some(group) => groups[group].push(side),
+                None => groups.push(vec![side]),
             }
         }
         let mut end = sides.start;
-        let ranges = kinds.iter().map(|of_kind| {
+        let ranges = groups.iter().map(|of_group| {
             let start = end;
-            end += of_kind.len();
-            self.sides[start..end].copy_from_slice(of_kind);
+            end += of_group.len();
+            self.sides[start..end].copy_from_slice(of_group);
             start..end
         });
         Some(ranges.collect())
     }
 
-    /// Compares the sides of one node with those of another; both were compared within.
+    /// Compares the sides of two nodes, each of which was compared within before.
     fn between(&mut self, a: usize, b: usize) -> Option<()> {
         self.go_on()?;
         if self.are_apart(&self.nodes[a], &self.nodes[b]) {
@@ -236,7 +250,7 @@ impl Search<'_> {
         }
         match (&self.nodes[a].below, &self.nodes[b].below) {
             (&Below::Inner(second), _) => {
-                // The other is the next to be divided.
+                // The other node is the next to be divided.
                 self.between(b, a + 1)?;
                 self.between(b, second)
             }
@@ -244,11 +258,11 @@ impl Search<'_> {
                 self.between(a, b + 1)?;
                 self.between(a, second)
             }
-            (Below::Kinds(of_a), Below::Kinds(of_b)) => {
+            (Below::Groups(of_a), Below::Groups(of_b)) => {
                 let (of_a, of_b) = (of_a.clone(), of_b.clone());
-                for kind in of_a {
+                for group in of_a {
                     for other in &of_b {
-                        self.join_kinds(kind.clone(), other.clone())?;
+                        self.join_groups(group.clone(), other.clone())?;
                     }
                 }
                 Some(())
@@ -257,15 +271,15 @@ impl Search<'_> {
         }
     }
 
-    /// Makes two kinds of sides one, if they may be and some of both coincide.
-    fn join_kinds(&mut self, kind: Range<usize>, other: Range<usize>) -> Option<()> {
+    /// Welds two groups of sides, if they may be and a side of one coincides with one of the other.
+    fn join_groups(&mut self, group: Range<usize>, other: Range<usize>) -> Option<()> {
         if !self
             .classes
-            .may_join(self.sides[kind.start], self.sides[other.start])
+            .may_join(self.sides[group.start], self.sides[other.start])
         {
             return Some(());
         }
-        for i in kind {
+        for i in group {
             self.go_on()?;
             for j in other.clone() {
                 if self.coincide(self.sides[i], self.sides[j]) {
@@ -289,7 +303,8 @@ mod tests {
     use std::cmp::Ordering;
     use std::collections::BTreeMap;
 
-    /// What is welded, how often a position was asked for, and how often at most between two looks.
+    /// Pairs that are welded, how often a position was asked for, and the most between two checks
+    /// whether to stop.
     fn weld(
         triangles: &[[u32; 3]],
         positions: &[[f64; 3]],
@@ -318,10 +333,11 @@ mod tests {
         weld(triangles, positions, tolerance).0
     }
 
-    /// A strip of two squares, the second of which has vertices of its own where they meet.
+    /// Strip of two squares, the second of which has vertices of its own where they meet.
     const APART: [[u32; 3]; 4] = [[0, 1, 2], [2, 1, 3], [4, 5, 6], [6, 5, 7]];
 
-    /// What lies between them is off by so much, and all is so large.
+    /// Positions of the strip, of squares as large as `scale`; the second is moved by `off` where
+    /// they meet.
     fn strip(off: [f64; 3], scale: f64) -> [[f64; 3]; 8] {
         let [x, y, z] = off;
         let at = |x: f64, y: f64| [x * scale, y * scale, 0.0];
@@ -412,7 +428,7 @@ mod tests {
 
     #[test]
     fn vertices_alone_are_not_welded_and_no_triangle_is_lost() {
-        // They meet in a point.
+        // Both triangles meet in a point.
         let fan = [[0, 1, 2], [3, 4, 5]];
         let at = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         let apart = [at, at.map(|at| at.map(|x| -x))].concat();
@@ -437,8 +453,8 @@ mod tests {
         }
     }
 
-    /// Random meshes on a coarse lattice, in which much coincides: what is welded hangs together by edges that coincide, and of those that are
-    /// left none may be welded.
+    /// Random meshes on a coarse lattice, in which much coincides. Welded vertices are connected by
+    /// edges that coincide, and no other edges may be welded.
     #[test]
     fn all_is_welded_that_may_be() {
         let mut random = Random::new(48);
@@ -468,7 +484,7 @@ mod tests {
             assert!(pairs.is_sorted_by_key(|pair| pair[1]));
             assert_no_corner_is_lost(&triangles, &pairs);
 
-            // By comparing all with all.
+            // The reference compares all with all.
             let mut count: BTreeMap<[u32; 2], u32> = BTreeMap::new();
             for corners in &triangles {
                 let mut edges: Vec<[u32; 2]> = edges_of(corners).collect();
@@ -528,13 +544,14 @@ mod tests {
         );
     }
 
-    /// So many triangles, each with corners of its own.
+    /// Triangles each with corners of its own.
     fn soup(count: usize, at: impl FnMut(usize) -> [f64; 3]) -> (Vec<[u32; 3]>, Vec<[f64; 3]>) {
         let triangles = (0..count as u32).map(|it| [3 * it, 3 * it + 1, 3 * it + 2]);
         (triangles.collect(), (0..3 * count).map(at).collect())
     }
 
-    /// However many are within the tolerance, four times as many take little more than four times as long; and looks are not far apart.
+    /// Four times as many triangles within a tolerance take little more than four times as long;
+    /// checks are not far apart.
     #[test]
     fn the_work_is_in_proportion_to_the_mesh() {
         type Shape = fn(&mut Random) -> [f64; 3];

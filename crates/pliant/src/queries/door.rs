@@ -1,7 +1,9 @@
-//! What a kind of query is, and the door through which the traversal sees it.
+//! The trait of a kind of query, and the door through which the traversal sees it.
 //!
-//! A kind says what it [`Needs`] of bodies, decides what it is shown of leaves, a [`Batch`] at a time, and numbers hits as the caller
-//! does. The traversal knows no kind: it has [`Needs`], and for every task a [`LeafWork`].
+//! A kind says what it [`Needs`] of bodies, decides a [`Batch`] of leaves at a time, and translates
+//! hits to the caller's numbers. The traversal knows no kind: it has the needs, and for every task
+//! a `dyn` [`LeafWork`]. So it is compiled once for `f32` and once for `f64`, whatever kinds there
+//! are.
 
 use super::near::{NearElements, Which};
 use crate::geometry::{Aabb, Points, Shape};
@@ -12,33 +14,34 @@ use crate::mesh::Order;
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
 
-/// Two triangles whose boxes overlap, of the first body and of the second.
+/// Candidate: two triangles whose boxes overlap, of the first body and of the second.
 pub(crate) type Candidate = [TreeTriangle; 2];
 
-/// Which set of a tree's boxes a kind uses: kinds whose boxes have the same source share one.
+/// Number of a set of a tree's boxes. Kinds whose boxes have the same source share a set.
 pub(crate) type BoxSetNumber = usize;
 
-/// The boxes of the shape of now: of intersections, contacts and distances.
+/// Set of the boxes of the present shape: for intersections, contacts and distances.
 pub(crate) const OF_SHAPES: BoxSetNumber = 0;
-/// Boxes that hold the shape and the end of a motion, and are grown: of candidates, close pairs and impacts.
+/// Set of the boxes of the shape and the end of a motion, grown: for candidates, close pairs and
+/// impacts.
 pub(crate) const OF_MOTIONS: BoxSetNumber = 1;
-/// Boxes of the shape of now, grown: of close triangles.
+/// Set of the boxes of the present shape, grown: for close triangles.
 pub(crate) const OF_GROWN_SHAPES: BoxSetNumber = 2;
 
-/// What a query reads of bodies: all that is to be known of it until leaves are tested.
+/// Requirements of a kind: all that is known of a query until leaves are tested.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Needs {
     pub(crate) box_set: BoxSetNumber,
-    /// What it is shown of leaves.
+    /// Input of the test of leaves.
     pub(crate) leaves: Shown,
-    /// By how much boxes are larger than those of the shape, on every side; none if they are those of the shape.
+    /// Distance by which boxes are grown on every side. None if boxes are not grown.
     pub(crate) grows_by: Option<f32>,
-    /// How far it looks along motions; none if it does not.
+    /// How far the query looks along motions. None if it does not.
     pub(crate) reach: Option<Reach>,
 }
 
 impl Needs {
-    /// The shape of now, and triangles whose boxes overlap.
+    /// Needs of a query on the present shape that tests triangles whose boxes overlap.
     pub(crate) const TRIANGLES: Self = Self {
         box_set: OF_SHAPES,
         leaves: Shown::Triangles,
@@ -46,12 +49,12 @@ impl Needs {
         reach: None,
     };
 
-    /// Whether it is shown triangles, not runs of them.
+    /// Whether the test gets triangles, not runs of them.
     pub(crate) fn triangles(&self) -> bool {
         self.leaves == Shown::Triangles
     }
 
-    /// What boxes of bodies are for it.
+    /// How boxes of bodies are made for this query.
     pub(crate) fn body_boxes(&self) -> BodyBoxes {
         BodyBoxes {
             grow_by: self.grows_by,
@@ -60,28 +63,29 @@ impl Needs {
     }
 }
 
-/// A kind of query.
+/// Kind of query: what it needs of bodies, how it decides leaves, and what it finds.
 pub(crate) trait Kind: Sync {
     type Scalar: Coordinate;
-    /// What it finds, as the caller numbers things.
+    /// Hit with the caller's numbers.
     type Hit: Copy + std::fmt::Debug + Send + Sync;
-    /// A hit as a visitor is shown it: itself, or with what is measured on the way.
+    /// Hit as a visitor is shown it: as it is, or with measurements made on the way.
     type Shown: Copy + std::fmt::Debug + Send + Sync;
-    /// What it finds, in tree order.
+    /// Hit in tree order.
     type TreeHit: Copy + Default + std::fmt::Debug + Send + Sync;
-    /// What a task keeps for the tests of leaves, from query to query.
+    /// Scratch memory of one task for tests of leaves, kept from query to query.
     type Buffers: Default + std::fmt::Debug + Held + Send;
 
     fn needs(&self) -> Needs;
 
-    /// Decides what it is shown, and appends what it finds, in an order that depends on nothing but
-    /// that. It counts candidates, exact decisions and hits.
+    /// Decides a batch of leaves, and appends hits in an order that depends on the batch alone.
+    ///
+    /// It counts candidates, exact decisions and hits.
     fn test(&self, leaves: &LeafTest<Self::Scalar>, batch: Batch, found: &mut FoundBy<Self>);
 
-    /// A hit as the caller numbers things.
+    /// Translates a hit to the caller's numbers.
     fn to_caller(&self, ids: &CallerIds, hit: Self::TreeHit) -> Self::Hit;
 
-    /// Appends what visitors are shown of hits to a list.
+    /// Appends hits as visitors are shown them to `shown`.
     fn show(
         &self,
         leaves: &LeafTest<Self::Scalar>,
@@ -90,16 +94,16 @@ pub(crate) trait Kind: Sync {
     );
 }
 
-/// Hits of tests of leaves, counters of the work, and the buffers of the tests.
+/// Hits of one task's tests, counters of the work, and scratch memory.
 #[derive(Debug, Default)]
 pub(crate) struct Found<T, B> {
-    /// In tree order.
+    /// Hits in tree order.
     pub(crate) hits: Buffer<T>,
     pub(crate) statistics: Statistics,
     pub(crate) buffers: B,
 }
 
-/// Finds of one kind.
+/// Hits, counters and scratch memory of a kind.
 pub(crate) type FoundBy<K> = Found<<K as Kind>::TreeHit, <K as Kind>::Buffers>;
 
 impl<T, B: Held> Held for Found<T, B> {
@@ -108,7 +112,7 @@ impl<T, B: Held> Held for Found<T, B> {
     }
 }
 
-/// In an implementation of `Kind`: visitors are shown hits themselves.
+/// Implements `Kind::show` for a kind whose visitors are shown the hits themselves.
 macro_rules! shows_hits {
     () => {
         type Shown = Self::Hit;
@@ -125,17 +129,20 @@ macro_rules! shows_hits {
 }
 pub(crate) use shows_hits;
 
-/// Leaves that overlap, some at a time, as a kind is shown them: what its [`Needs::leaves`] say.
+/// Batch of leaves that overlap, in the form that [`Needs::leaves`] asks for.
 pub(crate) enum Batch<'b> {
-    /// Two triangles whose boxes overlap; of one body those that share no vertex of the mesh. The list may be changed.
+    /// Pairs of triangles whose boxes overlap. Within one body, pairs that share a vertex of the
+    /// mesh are left out. The list may be changed.
     Triangles(&'b mut Buffer<Candidate>),
-    /// Two runs of up to eight triangles, of the first body and of the second, by their numbers: those of blocks, or of triangles where
-    /// every leaf is one; in one body a run perhaps with itself.
+    /// Pairs of runs of up to eight triangles, of the first body and of the second, by number.
+    ///
+    /// Runs are numbered as blocks, or as triangles where every leaf is one triangle. Within one
+    /// body a run may be paired with itself.
     Runs(&'b [[u32; 2]]),
 }
 
 impl<'b> Batch<'b> {
-    /// For a kind that needs triangles.
+    /// The batch of a kind that needs triangles.
     #[inline]
     pub(crate) fn triangles(self) -> &'b mut Buffer<Candidate> {
         match self {
@@ -144,7 +151,7 @@ impl<'b> Batch<'b> {
         }
     }
 
-    /// For a kind that needs runs.
+    /// The batch of a kind that needs runs.
     #[inline]
     pub(crate) fn runs(self) -> &'b [[u32; 2]] {
         match self {
@@ -154,21 +161,21 @@ impl<'b> Batch<'b> {
     }
 }
 
-/// What one task does with leaves that overlap: the door between the traversal and the kinds. What it finds stays inside.
+/// Tests of leaves by one task: the door between the traversal and the kinds. Hits stay inside.
 pub(crate) trait LeafWork<S> {
-    /// Forgets what was found and has been handed over.
+    /// Clears the hits, which have been handed over.
     fn clear(&mut self);
     /// Decides some leaves, whose boxes are valid.
     fn test(&mut self, leaves: &LeafTest<S>, batch: Batch);
-    /// Whether to go on before what was found is handed over.
+    /// Whether more leaves may be tested before hits are handed over.
     fn has_room(&self) -> bool;
-    /// Hands what was found to a collector, if there is one.
+    /// Hands the hits to a collector, if there is one.
     fn hand_over(&mut self);
     /// Candidates that were decided since it was cleared.
     fn candidates(&self) -> u64;
 }
 
-/// What boxes of bodies are for a kind: by how much they are grown, and whether they hold the ends of motions.
+/// Rule for boxes of bodies: by how much they are grown, and whether they hold the ends of motions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct BodyBoxes {
     grow_by: Option<f32>,
@@ -176,55 +183,56 @@ pub(crate) struct BodyBoxes {
 }
 
 impl BodyBoxes {
-    /// The box of a body, from that of its shape, or of both ends of its motion.
+    /// Box of a body, from the box of its shape, or of both ends of its motion.
     pub(crate) fn of(self, shape: Aabb) -> Aabb {
         self.grow_by.map_or(shape, |distance| shape.grown(distance))
     }
 }
 
-/// How far a kind that holds motions looks along them.
+/// Distance in time to which a kind with motions looks along them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Reach {
-    /// To the end.
+    /// Looks to the end of the motion.
     End,
-    /// Boxes hold the way up to this time, and a little more. What moves goes on to the end.
+    /// Looks to this time: boxes hold the way up to it, and a little more. Moving bodies go on to
+    /// the end.
     Until(f64),
-    /// To the shape at this time, rounded, as if the motion ended there.
+    /// Looks to the shape at this time, rounded, as if the motion ended there.
     To(f64),
 }
 
-/// What a kind is shown of leaves that overlap: see [`Batch`].
+/// Form of the leaves that a kind tests: see [`Batch`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shown {
     /// Triangles whose boxes overlap.
     Triangles,
-    /// The triangles of either leaf, up to eight at a time: not their boxes, but those of elements that belong to them.
+    /// Runs of up to eight triangles, compared by the boxes of the elements that belong to them.
     Runs(Which),
 }
 
-/// What a test of leaves works with.
+/// Input of a test of leaves besides the batch.
 pub(crate) struct LeafTest<'q, S> {
     pub(crate) instructions: Instructions,
     pub(crate) interrupt: &'q Interrupt<'q>,
-    /// Of both bodies, or of the one twice.
+    /// Shapes of both bodies, or of the one body twice.
     pub(crate) shapes: [&'q Shape<'q, S>; 2],
-    /// Where vertices are at the end of a motion, for kinds that hold motions.
+    /// Positions at the end of what boxes hold, for kinds that hold motions.
     pub(crate) ends: [Option<&'q Points<S>>; 2],
-    /// Where vertices are going.
+    /// Positions at the end of the motion.
     pub(crate) motions: [Option<&'q Points<S>>; 2],
     pub(crate) ids: CallerIds<'q>,
-    /// For kinds that are shown runs.
+    /// Elements and their boxes, for kinds that test runs.
     pub(crate) elements: [Option<NearElements<'q>>; 2],
-    /// Whether it is one body with itself,
+    /// Whether both bodies are one.
     pub(crate) is_one_body: bool,
-    /// and in one tree, so that two runs of one number are one.
+    /// Whether both trees are one, so that equal numbers of runs are the same run.
     pub(crate) is_one_tree: bool,
 }
 
-/// How the caller numbers things.
+/// Translation of tree order to the caller's numbers.
 pub(crate) struct CallerIds<'q> {
     pub(crate) bodies: [BodyId; 2],
     pub(crate) orders: [&'q Order; 2],
-    /// Of edges, for kinds that look at them; else none.
+    /// The caller's numbers of edges, for kinds that look at edges; else empty.
     pub(crate) edges: [&'q [u32]; 2],
 }

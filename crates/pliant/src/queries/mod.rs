@@ -1,8 +1,16 @@
-//! Kinds of queries: one room a kind.
+//! Kinds of queries, a folder each: what a query does to two leaves, and what it finds.
 //!
-//! The update, the traversal, the sorting and what users call are the same for every kind. A kind says what is different: what its boxes
-//! are made of and which set of them it uses, what two leaves do to each other, its rule for neighbours in the mesh, and what a hit is.
-//! `intersections`, `contacts`, `candidates`, `close` and `impacts` are kinds; the `hit`s of each are what callers get.
+//! Update, traversal, sorting and the calls of users are the same for every kind. A kind defines
+//! the source of its boxes, the test of two leaves, its rule for neighbours in the mesh, and its
+//! hit. `door` is the trait by which the traversal sees a kind, and `near` holds boxes of elements.
+//!
+//! | folder | kind | boxes |
+//! |---|---|---|
+//! | `intersections` | triangles that intersect, decided exactly | of the shape |
+//! | `contacts` | intersections with their kinds | of the shape |
+//! | `candidates` | vertices and triangles, or edges, within a margin | of the motion, grown |
+//! | `close` | elements or triangles within a distance, measured | of motion or shape, grown |
+//! | `impacts` | elements that meet during a motion, and when first | of the motion, grown |
 
 mod candidates;
 mod close;
@@ -12,7 +20,7 @@ mod impacts;
 mod intersections;
 mod near;
 
-/// Hits of every kind, as callers get them: the crate exports what is here.
+/// Hits of every kind, as callers get them. The crate exports them.
 pub(crate) mod hits {
     pub use super::candidates::{EdgeEdge, VertexTriangle};
     pub use super::close::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, ClosestFeatures};

@@ -1,33 +1,32 @@
-//! Keys in order: a radix sort that begins with the leading bits, and ends with ranks or bitmaps as soon as buckets are small or dense.
+//! Radix sort of keys from the leading bits, which ends in ranks or bitmaps once buckets are small
+//! or dense.
 //!
-//! The leading bits of a key say which bucket it goes to; there are so many buckets that most have a dozen keys or two, and only the rest of
-//! a key is written there. In a bucket of few, the place of each is how many are smaller (`kernels::ranks`). In a bucket of many, if the
-//! rests have few bits, a bitmap is made of them and gone through from the lowest. Any other bucket is put into buckets again.
-//!
-//! Keys come in parts, one of each thread that has found some. Each is put into buckets of its own. Then each thread puts some buckets in
-//! order, of all parts: as many as make about the same number of keys. What is in order does not depend on how many threads there are.
-//!
-//! No two keys are equal: of equal ones some would be missing.
+//! The leading bits of a key choose its bucket and only the rest is written there; most buckets get
+//! a dozen keys or two. In a small bucket the place of each key is its rank (`kernels::ranks`). A
+//! large bucket of short rests becomes a bitmap; any other is divided again. Each thread's keys are
+//! spread into buckets of their own; then each thread sorts a run of buckets, of all parts. No two
+//! keys are equal: bitmaps would lose one of them.
 
 use crate::held::{self, held};
 use crate::kernels::{Instructions, Simd, dispatch, ranks};
 use crate::threads::{Executor, Grain};
 use std::ops::Range;
 
-/// Keys in a bucket, about, where there are not too many of them.
+/// Keys in a bucket, on average, until there are [`BUCKETS`] of them.
 const BUCKET: usize = 16;
-/// The most buckets: their places stay in a near cache.
+/// The most buckets. Their ends, 4 bytes each, stay in a near cache.
 const BUCKETS: usize = 1 << 16;
-/// The most bits of rests of which a bitmap is made: it takes 128 KiB then.
+/// The most bits of rests for which a bitmap is made. It then takes 128 KiB.
 const BITMAP: u32 = 20;
-/// The summary of a bitmap has at most so many words for each rest: going through them costs less than buckets.
+/// The most words of a bitmap's summary for each rest: up to here reading them costs less than
+/// buckets.
 const SUMMARY: usize = 4;
-/// Fewer keys are not worth waking a thread.
+/// The fewest keys of a run: fewer are not worth waking a thread.
 const SHORTEST_RUN: usize = 1024;
-/// So many keys are looked at before it is asked whether somebody wants to stop.
+/// Number of keys between two looks at the interruption.
 const UNINTERRUPTED: usize = 1 << 16;
 
-/// Buckets, kept from list to list; rests are in as few bytes as they need.
+/// Scratch memory of the sort, kept from list to list. Rests take as few bytes as they need.
 #[derive(Debug, Default)]
 pub(super) struct Buckets {
     short: Lists<u32>,
@@ -36,29 +35,32 @@ pub(super) struct Buckets {
 
 #[derive(Debug, Default)]
 struct Lists<R> {
-    /// The keys of a part by their buckets, as far as those do not say what they are.
+    /// Rests of each part's keys, bucket by bucket.
     rests: Vec<R>,
-    /// Where each bucket ends, of every part.
+    /// Ends of the buckets of every part.
     ends: Vec<u32>,
-    /// One a thread.
+    /// Scratch memory, one for each thread.
     scratch: Vec<Scratch<R>>,
 }
 
 #[derive(Debug, Default)]
 struct Scratch<R> {
-    /// A bucket of all parts.
+    /// Rests of one bucket, gathered from all parts.
     bucket: Vec<R>,
-    /// A bit for each rest; between buckets none is set.
+    /// Bitmap with a bit for each rest. It is all zero between buckets.
     bitmap: Vec<u64>,
-    /// A bit for each word of the bitmap that is not 0.
+    /// Bitmap with a bit for each word of `bitmap` that is not zero.
     summary: Vec<u64>,
-    /// Buckets of a bucket, and where they end: those that are not in use.
+    /// Lists for buckets of a bucket, and their ends: those that are not in use.
     inner: Vec<(Vec<R>, Vec<u32>)>,
 }
 
 impl Buckets {
-    /// Puts what is made of keys in order of the keys, which come in parts, from the least to the largest: fewer than 2^32 in all, none above
-    /// 2^63. Interrupted, it leaves anything.
+    /// Sorts keys, which come in parts, and writes `make(key)` for each of them to `made`, in order
+    /// of the keys. O(keys).
+    ///
+    /// There are fewer than 2^32 keys, at least `least` and at most `most`, which is at most 2^63.
+    /// Interrupted, it leaves anything.
     pub(super) fn put_in_order<'k, T: Send>(
         &mut self,
         (executor, instructions): (Executor, Instructions),
@@ -77,7 +79,7 @@ impl Buckets {
             division,
             make,
         };
-        // Ranks are told of numbers below 2^31.
+        // Ranks are for numbers below 2^31.
         if division.rest < u32::BITS {
             job.put_in_order(keys, &mut self.short, made);
         } else {
@@ -86,7 +88,10 @@ impl Buckets {
     }
 }
 
-/// Makes a list so long, unless it is interrupted: memory that is written for the first time takes longer than sorting.
+/// Resizes a list to `len` items. Returns false, and stops, if it is interrupted.
+///
+/// It looks at the interruption, because memory that is written for the first time takes longer
+/// than sorting.
 pub(super) fn lengthen<T: Clone>(list: &mut Vec<T>, len: usize, by: T, executor: Executor) -> bool {
     list.truncate(len);
     list.reserve(len - list.len());
@@ -99,18 +104,19 @@ pub(super) fn lengthen<T: Clone>(list: &mut Vec<T>, len: usize, by: T, executor:
     true
 }
 
-/// Into which buckets keys go.
+/// Division of keys into buckets by their leading bits.
 #[derive(Clone, Copy)]
 struct Division {
-    /// No key is less.
+    /// Least key: no key is below it.
     least: u64,
-    /// So many low bits of what a key is more than that are its rest; the others are the number of its bucket.
+    /// Bits of the rest of a key, the low bits of `key - least`. The bits above are the number of
+    /// its bucket.
     rest: u32,
     buckets: usize,
 }
 
 impl Division {
-    /// Of so many keys, none of which is more than `range` above `least`.
+    /// Division for `count` keys, none of which is more than `range` above `least`.
     fn new(count: usize, least: u64, range: u64) -> Self {
         let most = (count / BUCKET).clamp(1, BUCKETS);
         let bits = u64::BITS - range.leading_zeros();
@@ -125,19 +131,20 @@ impl Division {
         }
     }
 
-    /// The least key of a bucket.
+    /// The least key that a bucket can have.
     #[inline(always)]
     fn least_of(self, bucket: usize) -> u64 {
         self.least + ((bucket as u64) << self.rest)
     }
 }
 
-/// What is left of a key in its bucket.
+/// Rest of a key: its bits below the number of the bucket.
 trait Rest: Copy + Default + Send + Sync {
-    /// Of bits that it has room for.
+    /// Narrows bits, for which it has room.
     fn of(bits: u64) -> Self;
     fn bits(self) -> u64;
-    /// How many are smaller than each. What is said behind as many ranks means nothing.
+    /// Rank of each number: how many of them are smaller. Ranks behind the last number mean
+    /// nothing.
     fn rank<I: Simd>(i: I, few: &[Self], ranks: &mut [u32; ranks::MOST]);
 }
 
@@ -180,7 +187,7 @@ impl Rest for u64 {
     }
 }
 
-/// How keys are put in order, and what is made of them.
+/// Settings of one sort: how to divide the keys, and what is made of them.
 #[derive(Clone, Copy)]
 struct Job<'q, F> {
     executor: Executor<'q>,
@@ -189,7 +196,7 @@ struct Job<'q, F> {
     make: F,
 }
 
-/// Some of the keys, and the same in buckets.
+/// Keys of one thread, and their rests in buckets.
 struct Part<'k, R> {
     keys: &'k [u64],
     rests: &'k mut [R],
@@ -197,7 +204,7 @@ struct Part<'k, R> {
 }
 
 impl<R> Part<'_, R> {
-    /// Where a bucket is.
+    /// Range of a bucket in the part's rests.
     #[inline(always)]
     fn bucket(&self, number: usize) -> Range<usize> {
         let start = number.checked_sub(1).map_or(0, |last| self.ends[last]);
@@ -205,7 +212,7 @@ impl<R> Part<'_, R> {
     }
 }
 
-/// Buckets in a row, and what their keys become.
+/// Run of consecutive buckets, and the place for what their keys become.
 struct Run<'k, R, T> {
     buckets: Range<usize>,
     made: &'k mut [T],
@@ -231,7 +238,7 @@ impl<T: Send, F: Fn(u64) -> T + Copy + Sync> Job<'_, F> {
         let first = keys.next().unwrap_or_default();
         let second = keys.next();
         if runs == 1 && second.is_none() {
-            // Without lists of one, which a step would allocate.
+            // One part needs no list of parts, which every step would allocate.
             ends.resize(ends.len().max(buckets), 0);
             let ends = &mut ends[..buckets];
             let mut part = Part {
@@ -266,13 +273,14 @@ impl<T: Send, F: Fn(u64) -> T + Copy + Sync> Job<'_, F> {
         executor.run(&mut runs, nanoseconds, |_, run| self.put_run_in_order(&parts, run));
     }
 
-    /// Puts the keys of a part into buckets.
+    /// Spreads the keys of a part into buckets.
     fn spread<R: Rest>(&self, part: &mut Part<R>) {
         let Part { keys, rests, ends } = part;
         self.spread_any(keys, |&key| key - self.division.least, rests, ends);
     }
 
-    /// The same of anything, of which `above` says by how much it is more than the least key.
+    /// Spreads items into buckets by counting sort, in O(items). `above` returns an item's key less
+    /// the least key.
     fn spread_any<K, R: Rest>(
         &self,
         keys: &[K],
@@ -307,7 +315,7 @@ impl<T: Send, F: Fn(u64) -> T + Copy + Sync> Job<'_, F> {
         }
     }
 
-    /// Puts the keys of some buckets in order, unless it is interrupted or the parts were.
+    /// Sorts the keys of a run of buckets, unless an interruption came before.
     fn put_run_in_order<R: Rest>(self, parts: &[Part<R>], run: &mut Run<R, T>) {
         if !self.executor.is_interrupted() {
             dispatch!(self.instructions, i => self.put_buckets_in_order(i, parts, run));
@@ -343,7 +351,7 @@ impl<T: Send, F: Fn(u64) -> T + Copy + Sync> Job<'_, F> {
         scratch.bucket = gathered;
     }
 
-    /// Puts the keys of a bucket in order, the least of which is at least `least`.
+    /// Sorts the keys of one bucket. `least` is the least key that the bucket can have.
     #[inline(always)]
     fn put_bucket_in_order<I: Simd, R: Rest>(
         self,
@@ -372,7 +380,7 @@ impl<T: Send, F: Fn(u64) -> T + Copy + Sync> Job<'_, F> {
         }
     }
 
-    /// Puts the keys of a bucket into buckets.
+    /// Spreads the keys of a bucket into buckets of their own, and sorts these.
     #[cold]
     #[inline(never)]
     fn divide<R: Rest>(self, bucket: &[R], least: u64, scratch: &mut Scratch<R>, made: &mut [T]) {
@@ -398,7 +406,7 @@ impl<T: Send, F: Fn(u64) -> T + Copy + Sync> Job<'_, F> {
 }
 
 impl<R: Rest> Scratch<R> {
-    /// Shows rests of so many bits in order.
+    /// Shows rests of `bits` bits in order.
     #[inline(always)]
     fn in_order(&mut self, rests: &[R], bits: u32, mut show: impl FnMut(u64)) {
         let count = (1_usize << bits).div_ceil(64);
@@ -420,7 +428,7 @@ impl<R: Rest> Scratch<R> {
     }
 }
 
-/// Shows the bits that are set in a word, lowest first, and leaves none.
+/// Shows the set bits of a word, lowest first, and clears them.
 #[inline(always)]
 fn take_bits(word: &mut u64, mut show: impl FnMut(u64)) {
     let mut rest = std::mem::take(word);
@@ -430,14 +438,14 @@ fn take_bits(word: &mut u64, mut show: impl FnMut(u64)) {
     }
 }
 
-/// Cuts all buckets into runs of about as many keys, one for each scratch.
+/// Cuts all buckets into runs with about equal numbers of keys, one for each scratch memory.
 fn cut<'k, R, T>(
     parts: &[Part<R>],
     mut made: &'k mut [T],
     scratch: &'k mut [Scratch<R>],
 ) -> Vec<Run<'k, R, T>> {
     let buckets = parts.first().map_or(0, |part| part.ends.len());
-    // Keys in buckets before one.
+    // Number of keys in all buckets before one.
     let before = |number: usize| -> usize {
         let starts = parts.iter().map(|part| part.bucket(number).start);
         starts.sum()

@@ -1,13 +1,14 @@
-//! Hits, as they are sorted: by their numbers.
+//! Hits as the sorter sees them: four numbers.
 
-/// What a kind of query finds, as the caller numbers things. Hits are ordered by their numbers, the first the most significant.
+/// Result of a kind of query, with the caller's numbers. Hits are ordered by their numbers, the
+/// first the most significant.
 pub(crate) trait Numbered {
-    /// Which things it is about: of two, a body and a number each.
+    /// Numbers of the hit's two things: a body, and the thing's number in it, for each.
     fn numbers(&self) -> [u32; 4];
 }
 
-/// A hit that is no more than its numbers.
+/// Hit that consists of its four numbers alone, so that it can be sorted as a key.
 pub(crate) trait Hit: Numbered + Copy + std::fmt::Debug + Send + Sync {
-    /// The hit that has these numbers.
+    /// Makes the hit that has these numbers.
     fn of_numbers(numbers: [u32; 4]) -> Self;
 }

@@ -1,15 +1,16 @@
-//! What one thread has found, as keys: of so many bits as its largest numbers need; or as hits, where these are too many.
+//! Keys of one thread's hits, with as many bits as its largest numbers need; or the hits
+//! themselves, where 63 bits are too few.
 
 use super::hit::Hit;
 use super::packing::Packing;
 use crate::held::held;
 
-/// Keys, or hits in place of them.
+/// Keys of hits, or the hits in place of them.
 #[derive(Debug)]
 pub(super) struct Keys<T> {
     pub(super) packing: Packing,
     pub(super) packed: Vec<u64>,
-    /// The least key and the largest.
+    /// Least and largest key.
     pub(super) extent: [u64; 2],
     hits: Vec<T>,
 }
@@ -25,10 +26,10 @@ impl<T> Default for Keys<T> {
     }
 }
 
-/// The extent of no keys.
+/// Extent of an empty list of keys.
 pub(super) const NOTHING: [u64; 2] = [u64::MAX, 0];
 
-/// The extent of the keys of two extents.
+/// Union of two extents.
 pub(super) fn both([a, b]: [u64; 2], [c, d]: [u64; 2]) -> [u64; 2] {
     [a.min(c), b.max(d)]
 }
@@ -43,7 +44,7 @@ impl<T> Keys<T> {
 }
 
 impl<T: Hit> Keys<T> {
-    /// Takes hits.
+    /// Appends hits.
     pub(super) fn push(&mut self, hits: &[T]) {
         self.pack(self.packing.with(hits));
         if self.packing.fits() {
@@ -57,7 +58,7 @@ impl<T: Hit> Keys<T> {
         }
     }
 
-    /// Makes keys of more bits; or hits, if these are too many.
+    /// Repacks all keys with more bits, or turns them into hits if 63 bits are too few.
     pub(super) fn pack(&mut self, packing: Packing) {
         let old = std::mem::replace(&mut self.packing, packing);
         if packing == old {
@@ -78,7 +79,7 @@ impl<T: Hit> Keys<T> {
         }
     }
 
-    /// Makes hits of keys, and moves all hits behind others.
+    /// Turns keys into hits, and moves all hits to the end of `others`.
     pub(super) fn unpack_to(&mut self, others: &mut Vec<T>) {
         self.pack(Packing::UNFIT);
         others.append(&mut self.hits);

@@ -1,9 +1,9 @@
-//! Hits in the order of their numbers.
+//! Sorting of hits by their numbers: radix sort of integer keys, with a comparison sort behind it.
 //!
-//! Every thread makes keys of what it finds (`keys`, `packing`), with as many bits as its largest numbers so far need; the keys of all
-//! threads are put in order by their digits (`buckets`), and become hits again. Hits of which more than 63 bits are needed are compared.
-//!
-//! No two hits are equal.
+//! Every thread packs its hits into keys (`keys`, `packing`), with as many bits as its largest
+//! numbers so far need. The keys of all threads are radix-sorted (`buckets`) and become hits again,
+//! in O(hits). Hits that need more than 63 bits are compared instead, in O(n log n). No two hits
+//! are equal.
 
 mod buckets;
 mod hit;
@@ -18,29 +18,30 @@ pub(crate) use hit::{Hit, Numbered};
 use keys::{Keys, NOTHING, both};
 use packing::Packing;
 
-/// Hits, and scratch.
+/// Hits of all threads, and the scratch memory to sort them.
 #[derive(Debug)]
 pub(crate) struct Sorter<T> {
-    /// What was found, once it is sorted.
+    /// Sorted hits. Written by [`sort`](Self::sort).
     hits: Vec<T>,
     keys: PerThread<Keys<T>>,
     buckets: Buckets,
 }
 
 impl<T: Hit> Sorter<T> {
-    /// Forgets all hits.
+    /// Begins a new list: forgets all keys.
     pub(crate) fn begin(&mut self, executor: Executor) {
-        // The list of hits is written anew, and not emptied: there is no need to fill it with something first.
+        // The list of hits is overwritten later and not emptied here: that saves filling it with
+        // something first.
         self.keys.for_threads(executor.count());
         self.keys.iter_mut().for_each(Keys::clear);
     }
 
-    /// Takes hits, of any thread.
+    /// Adds hits, found by the calling thread.
     pub(crate) fn push(&self, hits: &[T]) {
         self.keys.own().push(hits);
     }
 
-    /// What was found, in order once it is sorted.
+    /// Hits in order, after [`sort`](Self::sort).
     pub(crate) fn hits(&self) -> &[T] {
         &self.hits
     }
@@ -55,7 +56,7 @@ impl<T: Hit> Sorter<T> {
         let packings = keys.iter_mut().map(|keys| keys.packing);
         let packing = packings.fold(Packing::default(), Packing::and);
         let count: usize = keys.iter_mut().map(|keys| keys.packed.len()).sum();
-        // Places in buckets are not counted further.
+        // Places in buckets are `u32`.
         if !packing.fits() || u32::try_from(count).is_err() {
             hits.clear();
             keys.iter_mut().for_each(|keys| keys.unpack_to(hits));
@@ -76,7 +77,7 @@ impl<T: Hit> Sorter<T> {
     }
 }
 
-/// Sorts hits of any kind by comparing their numbers.
+/// Sorts hits of any kind by comparing their numbers. O(n log n).
 pub(crate) fn sort_by_numbers<T: Numbered>(hits: &mut [T]) {
     hits.sort_unstable_by_key(T::numbers);
 }
@@ -93,7 +94,8 @@ mod tests {
     use pliant_oracle::Random;
     use std::num::NonZeroUsize;
 
-    /// Lists by how many hits they are of at most, as equal ones are left out; the bits of the four numbers; and whether they grow.
+    /// Lists to sort: the most hits (equal ones are left out), the bits of the four numbers, and
+    /// whether the numbers grow.
     const LISTS: [(usize, [u32; 4], bool); 21] = [
         (0, [0, 9, 0, 9], false),
         (1, [0, 9, 0, 9], false),
@@ -108,10 +110,12 @@ mod tests {
         (4000, [0, 1, 0, 31], true),
         (4000, [5, 26, 5, 26], true),
         (70_000, [0, 16, 0, 17], true),
-        // Buckets are uneven, as few bodies are others than the first: some become bitmaps, some are divided.
+        // Buckets are uneven, as few first bodies differ: some buckets become bitmaps, some are
+        // divided.
         (70_000, [4, 12, 4, 12], false),
         (20_000, [4, 12, 4, 12], false),
-        // One bucket has nearly all of them: of rests with few bits, with many, and with more than a short one has room for.
+        // One bucket has nearly all keys: with few bits of rest, with many, and with more than a
+        // `u32` has room for.
         (70_000, [10, 0, 10, 17], false),
         (200_000, [10, 2, 10, 20], false),
         (70_000, [20, 1, 20, 10], false),
@@ -143,7 +147,7 @@ mod tests {
             expected.dedup();
             let mut seen = std::collections::HashSet::new();
             items.retain(|item| seen.insert(*item));
-            // Keys have more and more bits where numbers grow, and where they need more than 63 they become hits.
+            // Keys get more bits as numbers grow. Where they need more than 63 they become hits.
             let orders = [Some(items), grow.then(|| expected.clone())];
             for items in orders.iter().flatten() {
                 for threads in [1, 2, 7] {

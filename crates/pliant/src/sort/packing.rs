@@ -1,10 +1,11 @@
-//! Hits as keys: integers that are in the order of the hits.
+//! Packing of hits into integer keys that have the order of the hits.
 //!
-//! Bodies and what is numbered in them are few bits each, so the four numbers of a hit side by side make one key.
+//! Numbers of bodies, and numbers within them, take few bits each, so the four numbers of a hit
+//! side by side make one key.
 
 use super::hit::Hit;
 
-/// How the four numbers of a hit make one key: of so many bits for a body, and for what is numbered in it.
+/// Bits for a body's number and bits for a number within a body: how four numbers make one key.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Packing {
     body: u32,
@@ -12,13 +13,13 @@ pub(super) struct Packing {
 }
 
 impl Packing {
-    /// Of so many bits that no key has them.
+    /// More bits than a key has.
     pub(super) const UNFIT: Self = Self {
         body: u32::BITS,
         number: u32::BITS,
     };
 
-    /// That of these hits, too.
+    /// Packing with enough bits for these hits too.
     pub(super) fn with<T: Hit>(self, hits: &[T]) -> Self {
         let all = hits.iter().map(T::numbers);
         let (bodies, numbers) = all.fold((0, 0), |(bodies, numbers), [a, x, b, y]| {
@@ -30,7 +31,7 @@ impl Packing {
         })
     }
 
-    /// That of the hits of two.
+    /// Packing with enough bits for the hits of both packings.
     pub(super) fn and(self, other: Self) -> Self {
         Self {
             body: self.body.max(other.body),
@@ -43,7 +44,7 @@ impl Packing {
         2 * (self.body + self.number) < u64::BITS
     }
 
-    /// Where the first three numbers begin.
+    /// Bit positions of the first three numbers.
     fn shifts(self) -> [u32; 3] {
         let Self { body, number } = self;
         [body + 2 * number, body + number, number]

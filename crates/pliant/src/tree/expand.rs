@@ -1,4 +1,6 @@
-//! What a pair of nodes becomes: pairs of their children that overlap, or a pair of leaves.
+//! Expansion of node pairs: to pairs of their children that overlap, or to a pair of leaves.
+//!
+//! Trees are of one degree, which is matched on once a batch (`boxes/lanes.rs`).
 
 use super::{BoxSet, Child, Neighbours, STRICT_UPPER, Tree, of_degree};
 use crate::held::held;
@@ -11,51 +13,55 @@ pub(crate) type NodePair = [NodeId; 2];
 /// Two leaves whose boxes overlap, or a leaf with itself.
 pub(crate) type LeafPair = [LeafId; 2];
 
-/// A tree and a set of its boxes: all that a walk reads of a body.
+/// Tree and a set of its boxes: all that a walk reads of a body.
 #[derive(Clone, Copy)]
 pub(crate) struct BoxedTree<'t> {
     pub(crate) tree: &'t Tree,
     pub(crate) boxes: &'t BoxSet,
 }
 
-/// Leaves side by side that are in pairs, a bit for each of eight.
+/// Eight consecutive leaves, and a bit for each that is in a pair.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ReachedLeaves {
     pub(crate) first: LeafId,
     pub(crate) lanes: u8,
 }
 
-/// Of the pairs (i, j) of eight lanes, bit 8 i + j, those with j = i.
+/// Mask of the pairs (i, i) of eight lanes; a pair (i, j) is bit 8 i + j.
 const DIAGONAL: u64 = 0x8040_2010_0804_0201;
 
-/// What pairs of nodes became: the stack of a task, and its list of pairs of leaves.
+/// Work lists of a task: the stack of node pairs, and the list of leaf pairs.
 #[derive(Debug, Default)]
 pub(crate) struct Worklists {
-    /// The stack: pairs of nodes that are still to be expanded.
+    /// Stack of node pairs that are still to be expanded.
     pub(crate) nodes: Buffer<NodePair>,
-    /// Pairs of leaves that are still to be tested.
+    /// Leaf pairs that are still to be tested.
     pub(crate) leaves: Buffer<LeafPair>,
-    /// The leaves in the new pairs of leaves, some perhaps more than once, of either tree.
+    /// Leaves in the new leaf pairs, for either tree; some perhaps more than once.
     pub(crate) reached: [Buffer<ReachedLeaves>; 2],
-    /// How many pairs of nodes were expanded, with those of leaves that went straight onto their list.
+    /// Counter of expanded node pairs, and of leaf pairs that went straight onto their list.
     pub(crate) node_pairs: u64,
 }
 
 impl Worklists {
+    /// Empties all lists and the counter.
     pub(crate) fn clear(&mut self) {
         self.nodes.clear();
         self.clear_leaves();
         self.node_pairs = 0;
     }
 
+    /// Empties the lists of leaves.
     pub(crate) fn clear_leaves(&mut self) {
         self.leaves.clear();
         self.reached.iter_mut().for_each(Buffer::clear);
     }
 }
 
-/// Expands every pair of a batch, of two trees or of one with itself. What is below the nodes is valid. Leaves that are known to be
-/// neighbours may be left out.
+/// Expands every pair of a batch, of two trees or of one with itself.
+///
+/// The boxes below the nodes are valid. Leaves that are neighbours according to `left_out` may be
+/// left out.
 pub(crate) fn expand(
     instructions: Instructions,
     trees: [BoxedTree<'_>; 2],
@@ -74,6 +80,7 @@ pub(crate) fn expand(
     });
 }
 
+/// [`expand`] for one instruction set, one degree, and two trees or one.
 #[inline(always)]
 fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
     i: I,
@@ -127,8 +134,8 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
                 let (wide_a, wide_b) = (nodes_a.wide(below_a), nodes_b.wide(below_b));
                 let (boxes_a, boxes_b) = (&boxes_a[below_a.index()], &boxes_b[below_b.index()]);
                 if let (Some(first_a), Some(first_b)) = (wide_a.first_leaf, wide_b.first_leaf) {
-                    // Leaves side by side: their pairs need not go over the stack.
-                    // Where some are left out all boxes are valid: then no leaf is to be refitted.
+                    // Leaves side by side: their pairs need not go over the stack. Where some are
+                    // left out all boxes are valid: then no leaf is to be refitted.
                     let free = left_out.is_some();
                     // Not by a closure: that would be compiled without the instructions.
                     let left_out = match left_out {
@@ -167,7 +174,7 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
                 }
                 let mut asked = u64::MAX;
                 if ITSELF && node_a == node_b {
-                    // Every child with itself, whatever its box, and with each later one.
+                    // Each child with itself, whatever its box, and with each later one.
                     for lane in 0..wide_a.len() {
                         nodes.push([NodeId::new(below_a, lane); 2]);
                     }
@@ -186,16 +193,17 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
     }
 }
 
-/// Of pairs (i, j) of eight lanes, bit 8 i + j, the i.
+/// Set of the i in a mask of pairs (i, j) of eight lanes, bit 8 i + j.
 fn rows_of(mask: u64) -> u8 {
     let mut rows = mask | mask >> 4;
     rows |= rows >> 2;
     rows |= rows >> 1;
-    // Bit 0 of byte i is whether there is an i; the product moves it to bit i of the highest byte.
+    // Bit 0 of byte i says whether i is in a pair; the product moves it to bit i of the highest
+    // byte.
     ((rows & 0x0101_0101_0101_0101).wrapping_mul(0x0102_0408_1020_4080) >> 56) as u8
 }
 
-/// Of pairs (i, j) of eight lanes, bit 8 i + j, the j.
+/// Set of the j in a mask of pairs (i, j) of eight lanes, bit 8 i + j.
 fn columns_of(mask: u64) -> u8 {
     mask.to_le_bytes()
         .into_iter()

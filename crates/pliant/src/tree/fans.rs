@@ -1,33 +1,34 @@
-//! Which nodes hold nothing but triangles round one vertex.
+//! Fans: nodes below which all triangles share one vertex.
 //!
-//! All triangles round a vertex are neighbours, so a mesh with very many of them (the lid of a cylinder, a mesh that lies in one
-//! point) has the square of that in pairs which are no answer. Where every triangle below two nodes has the same vertex, nothing
-//! below them need be looked for. That is asked only of meshes with crowded blocks: see `neighbours`.
+//! Triangles round one vertex are neighbours, which are no answer. A mesh with very many (the lid
+//! of a cylinder, a mesh that lies in one point) has the square of that in such pairs. Where all
+//! triangles below two nodes have the same vertex, nothing below them need be looked for. Only
+//! meshes with crowded blocks ask: see `neighbours`.
 
 use super::{Child, Leaves, WideNode};
 use crate::held::held;
 use crate::ids::{TreeTriangle, WideNodeId};
 use crate::mesh::Order;
 
-/// What stands for no vertex.
+/// Sentinel: no vertex.
 const NONE: u32 = u32::MAX;
 
 /// Up to three vertices that all triangles below the nodes of a wide node have.
 type Common = [u32; 3];
 
-/// Of every wide node what its triangles have in common; empty if nobody is to ask.
+/// Common vertices of the triangles below each wide node; an empty list if nobody is to ask.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Fans(Vec<Common>);
 
 impl Fans {
-    /// Cost: linear in the triangles.
+    /// Finds the common vertices, bottom-up. Cost: linear in the triangles.
     pub(super) fn new(wide_nodes: &[WideNode], leaves: &Leaves, order: &Order) -> Self {
         let corners = |triangle: usize| {
             let corners = order.corners(TreeTriangle(triangle as u32));
             corners.map(|vertex| vertex.0)
         };
         let mut all = vec![[NONE; 3]; wide_nodes.len()];
-        // Wide nodes below others come after them.
+        // Backwards, because wide nodes come after the wide node above them.
         for (number, wide_node) in wide_nodes.iter().enumerate().rev() {
             let of_child = |child| match child {
                 Child::Inner(below) => all[below.index()],
@@ -50,7 +51,7 @@ impl Fans {
     }
 }
 
-/// The vertices of `a` that are in `b` too.
+/// Returns the vertices of `a` that are in `b` too.
 fn in_both(a: Common, b: Common) -> Common {
     a.map(|vertex| if b.contains(&vertex) { vertex } else { NONE })
 }
@@ -66,7 +67,7 @@ mod tests {
         assert_eq!(in_both([1, 2, 3], [3, 4, 1]), [1, NONE, 3]);
         assert_eq!(in_both([1, NONE, 3], [NONE, 4, 1]), [1, NONE, NONE]);
         assert_eq!(in_both([NONE; 3], [1, 2, 3]), [NONE; 3]);
-        // The same vertex three times is one.
+        // One vertex three times is one.
         assert_eq!(in_both([7, 7, 7], [5, 7, 9]), [7, 7, 7]);
     }
 }

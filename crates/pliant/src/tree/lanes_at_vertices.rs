@@ -1,5 +1,6 @@
-//! Which lanes of which blocks hold the triangles that meet at a vertex: an index of corners the other way round, in memory only while
-//! neighbours are looked for.
+//! Inverse index of corners: the blocks, and their lanes, that hold the triangles at each vertex.
+//!
+//! In memory only while neighbours are looked for.
 
 use super::{BLOCK_LANES, Leaves};
 use crate::held::held;
@@ -9,38 +10,42 @@ use crate::threads::Budget;
 use std::mem::replace;
 use std::ops::Range;
 
-/// Leaves that are gone through before the budget is looked at; and looks at a triangle that this takes.
+/// Leaves between two checks of the budget.
 const AT_ONCE: usize = 64;
+/// Looks of the budget that a triangle takes.
 const LOOKS: usize = 2;
 
-/// No block.
+/// Sentinel: no block.
 const NONE: BlockId = BlockId(u32::MAX);
 
-/// The blocks that have triangles at every vertex, one vertex after the other; made some leaves at a time.
+/// Blocks with triangles at each vertex, in compressed sparse rows (CSR); made some leaves at a
+/// time.
 pub(super) struct LanesAtVertices {
+    /// Where the row of each vertex begins, and the end of the last.
     starts: Vec<u32>,
+    /// Blocks of all rows, one row after the other, ascending in each.
     blocks: Vec<BlockId>,
-    /// Of each of these blocks, the lanes of the triangles with a corner at the vertex.
+    /// For each entry of `blocks`, the lanes of the triangles that have a corner at the vertex.
     lanes: Vec<u8>,
     stage: Stage,
-    /// The next leaf to be gone through.
+    /// First leaf that was not gone through in this stage.
     next: usize,
-    /// The last block that was seen at each vertex: blocks come in order, so it is new where it is another.
+    /// Last block seen at each vertex. Blocks come in order, so another block is a new one.
     last: Vec<BlockId>,
 }
 
-/// How far they are.
+/// Stage of the construction: a two-pass counting sort.
 #[derive(PartialEq)]
 enum Stage {
-    /// How many blocks there are at each vertex is counted, in the place behind it.
+    /// First pass: counts the blocks at each vertex, in the place behind its start.
     Counting,
-    /// Each start is that of its vertex now; it goes up to that of the next while blocks are put down.
+    /// Second pass: puts blocks down. Each start moves up to where the next row begins.
     Filling,
     Done,
 }
 
 impl LanesAtVertices {
-    /// Of a mesh in tree order, none yet.
+    /// Begins the index of a mesh in tree order.
     pub(super) fn new(order: &Order) -> Self {
         Self {
             starts: vec![0; order.used_vertices() + 1],
@@ -52,7 +57,9 @@ impl LanesAtVertices {
         }
     }
 
-    /// Goes on with the same leaves and order; returns whether it is done. Cost of all: linear in triangles and vertices.
+    /// Continues with the same leaves and order; returns whether it is done.
+    ///
+    /// Cost in all: linear in triangles and vertices.
     #[inline(never)]
     pub(super) fn advance(&mut self, leaves: &Leaves, order: &Order, budget: &mut Budget) -> bool {
         let (starts, last, next) = (&mut self.starts, &mut self.last, &mut self.next);
@@ -93,26 +100,29 @@ impl LanesAtVertices {
         true
     }
 
-    /// How many blocks have triangles at a vertex.
+    /// Returns how many blocks have triangles at a vertex. O(1).
     pub(super) fn count(&self, vertex: TreeVertex) -> usize {
         self.of(vertex).len()
     }
 
-    /// The blocks at a vertex, in order, and which of their lanes.
+    /// Returns the blocks at a vertex, ascending, each with its lanes there.
     pub(super) fn at(&self, vertex: TreeVertex) -> impl Iterator<Item = (BlockId, u8)> {
         let own = self.of(vertex);
         let blocks = self.blocks[own.clone()].iter().copied();
         blocks.zip(self.lanes[own].iter().copied())
     }
 
+    /// Returns the row of a vertex.
     fn of(&self, vertex: TreeVertex) -> Range<usize> {
         let vertex = vertex.index();
         self.starts[vertex] as usize..self.starts[vertex + 1] as usize
     }
 }
 
-/// Calls with the vertex, block and lane of every corner from a leaf on, in the order of blocks. Returns whether all leaves were gone through,
-/// of which `next` is the first that was not.
+/// Calls `corner` with the vertex, block and lane of each corner, from leaf `next` on, by ascending
+/// blocks.
+///
+/// Returns whether all leaves were gone through; if not, `next` is the first that was not.
 fn for_each_corner(
     leaves: &Leaves,
     order: &Order,
@@ -149,14 +159,14 @@ mod tests {
 
     #[test]
     fn triangles_meet_at_their_corners() {
-        // Vertices 3 and 5 are not used, and tree order numbers the others as they come: 4, 1, 2, 0.
+        // Vertices 3 and 5 are not used. Tree order numbers the others as they come: 4, 1, 2, 0.
         let topology = Topology::new(&[[4, 1, 2], [2, 1, 0], [4, 4, 2]], 6);
         let order = Order::new(&topology, vec![0, 1, 2]);
         let mut leaves = Leaves::new(8, crate::ids::TreeTriangle(0));
         leaves.push(0..1);
         leaves.push(1..3);
         let mut lanes = LanesAtVertices::new(&order);
-        // A look at a time is enough.
+        // A budget of one look is enough to get on.
         while !lanes.advance(&leaves, &order, &mut Budget::of(1)) {}
         let expected: [&[(u32, u8)]; 4] = [
             &[(0, 0b01), (1, 0b10)],

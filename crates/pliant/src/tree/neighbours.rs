@@ -1,16 +1,12 @@
-//! Which triangles of a body share a vertex, block by block: for a body that meets itself.
+//! Table of neighbours: triangles of a body that share a vertex, block by block, for
+//! self-collision.
 //!
-//! Triangles that share a vertex always touch, and are no answer. The mesh of a tree stays, so for every two blocks that hold such
-//! triangles the others, which are to be compared, are known beforehand, as a mask in the order of
-//! [`overlap_mask`](crate::kernels::overlap_mask). On a surface a block of eight triangles has about ten neighbours; half of them come
-//! later, and are on its list.
-//!
-//! Blocks that are neighbours overlap in any shape, for a vertex is in both. Where leaves are blocks, a traversal that knows which
-//! leaves are neighbours, also by wide nodes of leaves, need not find them: they are gone through one list after the other.
-//!
-//! Where a mesh is no surface (a hundred thousand triangles round one vertex) masks would take memory by the square. Blocks
-//! with that many neighbours are *crowded*: their lists are empty, they are found like all others, and corners are compared
-//! when their triangles are; but not those of nodes that are one fan (`fans`).
+//! Triangles that share a vertex always touch, and are no answer. The mesh of a tree stays, so the
+//! pairs to compare between two neighbouring blocks are known beforehand, as a mask. Blocks that
+//! are neighbours overlap in any shape, because both hold a vertex. So where leaves are blocks, a
+//! traversal need not find neighbours: they are gone through list by list. Blocks with too many
+//! neighbours are *crowded* and have no list, for masks would take memory by the square
+//! ([`Neighbours::is_crowded`]).
 
 use super::fans::Fans;
 use super::lanes_at_vertices::LanesAtVertices;
@@ -22,15 +18,15 @@ use crate::mesh::Order;
 use crate::threads::Budget;
 use std::ops::Range;
 
-/// A block with more later neighbours is crowded.
+/// Most later neighbours of a block that is not crowded. On a surface there are about five.
 const MOST_NEIGHBOURS: usize = 32;
-/// A block with a vertex at which more blocks meet is crowded, too: only so far are they looked through.
+/// Most blocks at a vertex of a block that is not crowded: only so far are they looked through.
 const MOST_AT_A_VERTEX: usize = 64;
 
-/// Looks at a triangle that its lists take.
+/// Looks of the budget that the lists of a triangle take.
 const LOOKS: usize = 10;
 
-/// Of the pairs (i, j) of eight lanes, bit 8 i + j, those with j > i.
+/// Mask of the pairs (i, j) of eight lanes with j > i; a pair is bit 8 i + j.
 pub(crate) const STRICT_UPPER: u64 = {
     let (mut mask, mut lane) = (0, 0);
     while lane < 8 {
@@ -40,19 +36,22 @@ pub(crate) const STRICT_UPPER: u64 = {
     mask
 };
 
-/// For numbered things of up to eight lanes each, pairs of lanes of one with itself and with some later ones: for each thing a list,
-/// which begins with itself.
+/// Lists of lane pairs between numbered things of up to eight lanes each (CSR).
+///
+/// Each thing's list begins with itself; later things follow.
 #[derive(Clone, Debug)]
 struct LaneLists {
-    /// Where the list of each thing begins; and where the last ends.
+    /// Where the list of each thing begins, and the end of the last.
     starts: Vec<u32>,
-    /// The things of all lists, and behind them seven numbers that nothing has, so that eight can be read at once.
+    /// Things of all lists, then seven numbers that no thing has, so that eight can be read at
+    /// once.
     others: Vec<u32>,
-    /// The pairs of lanes with each of them.
+    /// For each entry of `others`, the mask of lane pairs with it.
     masks: Vec<u64>,
 }
 
 impl LaneLists {
+    /// Allocates for `things` lists with `others` entries in all.
     fn with_capacity(things: usize, others: usize) -> Self {
         let mut starts = Vec::with_capacity(things + 1);
         starts.push(0);
@@ -63,26 +62,28 @@ impl LaneLists {
         }
     }
 
-    /// Adds the next thing.
+    /// Appends the list of the next thing.
     fn push(&mut self, list: &[(u32, u64)]) {
         self.others.extend(list.iter().map(|&(thing, _)| thing));
         self.masks.extend(list.iter().map(|&(_, mask)| mask));
         self.starts.push(self.masks.len() as u32);
     }
 
+    /// Pads the end, and gives back unused memory.
     fn finish(&mut self) {
         self.others.extend([u32::MAX; 7]);
         self.others.shrink_to_fit();
         self.masks.shrink_to_fit();
     }
 
+    /// Returns the places of the list of a thing.
     #[inline(always)]
     fn list(&self, thing: u32) -> Range<usize> {
         let [start, end] = [thing as usize, thing as usize + 1].map(|place| self.starts[place]);
         start as usize..end as usize
     }
 
-    /// The pairs of lanes of a thing and of one that is not before it, if that is on its list.
+    /// Returns the lane pairs of thing `a` with `b`, which is not before it, if `b` is on its list.
     #[inline(always)]
     fn get<I: Simd>(&self, i: I, a: u32, b: u32) -> Option<u64> {
         let list = self.list(a);
@@ -91,7 +92,7 @@ impl LaneLists {
             let eight = self.others[place..]
                 .first_chunk()
                 .expect("the end is padded");
-            // What is behind the list is another's.
+            // Lanes behind the list belong to the next one.
             let own = 0xff >> 8_usize.saturating_sub(list.end - place);
             let found = find_lane(i, eight, b) & own;
             if found != 0 {
@@ -102,43 +103,55 @@ impl LaneLists {
     }
 }
 
-/// The neighbours of all blocks of a tree.
+/// Neighbours of all blocks of a tree, and of its wide nodes of leaves.
+///
+/// On a surface a block of eight triangles has about ten neighbours. Half of them come later, and
+/// are on its list. Masks are in the order of [`overlap_mask`](crate::kernels::overlap_mask).
 #[derive(Clone, Debug)]
 pub(crate) struct Neighbours {
-    /// Of blocks that are not crowded: the pairs of triangles that are to be compared, because they share no vertex; within a block, each
-    /// pair once.
+    /// For each block that is not crowded: the pairs of triangles to compare, because they share no
+    /// vertex. Within a block, each pair once.
     of_blocks: LaneLists,
-    /// Of wide nodes of leaves that are blocks: the pairs of leaves that are neighbours and not crowded; every leaf is with itself.
+    /// For each wide node of leaves that are blocks: the pairs of leaves that are neighbours and
+    /// not crowded. A leaf is its own neighbour.
     of_wide_nodes: LaneLists,
-    /// Nothing if no block is crowded.
+    /// Fans; empty if no block is crowded.
     fans: Fans,
 }
 
 impl Neighbours {
-    /// Bit 8 i + j is set if triangle i of block `a` and triangle j of block `b` are to be compared, because they share no
-    /// vertex; within one block, each pair once. `None` if that is not known.
+    /// Returns the mask of triangle pairs to compare: bit 8 i + j for triangle i of `a` and j of
+    /// `b`.
     ///
-    /// Lanes that are not used are in no pair of neighbours; of others they may be.
+    /// Pairs that share a vertex are left out. Within one block each pair is there once. `None` if
+    /// the pairs are not known. Unused lanes are in no pair of neighbours; between other blocks
+    /// they may be.
     #[inline(always)]
     pub(crate) fn compared<I: Simd>(&self, i: I, a: BlockId, b: BlockId) -> Option<u64> {
         let known = a <= b && !self.is_crowded(a);
         known.then(|| self.of_blocks.get(i, a.0, b.0).unwrap_or(u64::MAX))
     }
 
-    /// Whether nothing is known of a block and of later ones.
+    /// Whether a block is crowded: it has too many neighbours, and no list of them.
+    ///
+    /// Crowded blocks are found by their boxes, like strangers. Corners are compared when their
+    /// triangles are. Nodes that are one fan (`fans`) are left out.
     #[inline(always)]
     pub(crate) fn is_crowded(&self, block: BlockId) -> bool {
         self.of_blocks.list(block.0).is_empty()
     }
 
-    /// Where leaves are blocks: whether all triangles below the nodes of two wide nodes are known to be neighbours.
+    /// Whether all triangles below the nodes of two wide nodes are known to be neighbours. For
+    /// leaves that are blocks.
     #[inline(always)]
     pub(crate) fn are_one_fan(&self, a: WideNodeId, b: WideNodeId) -> bool {
         self.fans.are_one(a, b)
     }
 
-    /// A block itself and its later neighbours, and which of their triangles are to be compared with its own. Of a crowded block
-    /// nothing.
+    /// Returns a block and its later neighbours, with the mask of triangle pairs to compare with
+    /// each.
+    ///
+    /// Empty for a crowded block.
     #[inline(always)]
     pub(crate) fn of_block(&self, block: BlockId) -> (&[u32], &[u64]) {
         let list = self.of_blocks.list(block.0);
@@ -148,14 +161,17 @@ impl Neighbours {
         )
     }
 
-    /// Where leaves are blocks: whether two, or one and itself, are among those that [`of_block`](Self::of_block) names.
+    /// Whether [`of_block`](Self::of_block) names a pair of leaves, or a leaf with itself. For
+    /// leaves that are blocks.
     #[inline(always)]
     pub(crate) fn are_neighbours<I: Simd>(&self, i: I, a: LeafId, b: LeafId) -> bool {
         self.of_blocks.get(i, a.0.min(b.0), a.0.max(b.0)).is_some()
     }
 
-    /// Which leaves are neighbours, of two wide nodes of leaves that are blocks, or one and itself: bit 8 i + j is set if leaf i of
-    /// `a` and leaf j of `b` are.
+    /// Returns the mask of neighbouring leaves of two wide nodes of leaves, or of one with itself.
+    ///
+    /// Bit 8 i + j is set if leaf i of `a` and leaf j of `b` are neighbours. For leaves that are
+    /// blocks.
     #[inline(always)]
     pub(crate) fn among_leaves<I: Simd>(&self, i: I, a: WideNodeId, b: WideNodeId) -> u64 {
         if a <= b {
@@ -166,7 +182,7 @@ impl Neighbours {
     }
 }
 
-/// The pairs (j, i) for the pairs (i, j) of a mask.
+/// Transposes a mask: pair (i, j) becomes (j, i).
 fn transposed(mask: u64) -> u64 {
     let mut transposed = 0;
     for (row, lanes) in mask.to_le_bytes().into_iter().enumerate() {
@@ -177,23 +193,25 @@ fn transposed(mask: u64) -> u64 {
     transposed
 }
 
-/// The pairs (i, j) of so many lanes i and so many lanes j.
+/// Mask of the pairs of `rows` lanes i and `columns` lanes j.
 fn pairs_of_lanes(rows: usize, columns: usize) -> u64 {
     let row = 0xff >> (8 - columns);
     (0..rows).fold(0, |mask, lane| mask | row << (8 * lane))
 }
 
-/// Neighbours on their way, made some leaves at a time. Cost of all: linear in the triangles, whatever the mesh.
+/// Table of neighbours under construction, made some leaves at a time.
+///
+/// Cost in all: linear in the triangles, whatever the mesh.
 pub(crate) struct NeighboursBuilder {
     at_vertices: LanesAtVertices,
-    /// The next leaf whose lists are to come.
+    /// First leaf whose lists are to come.
     next: u32,
     of_blocks: LaneLists,
     list: Vec<(u32, u64)>,
 }
 
 impl NeighboursBuilder {
-    /// Of leaves that have blocks.
+    /// Begins the table; leaves have blocks.
     pub(super) fn new(leaves: &Leaves, order: &Order) -> Self {
         // On a surface a block has four to six later neighbours.
         let count = leaves.block_count();
@@ -205,7 +223,7 @@ impl NeighboursBuilder {
         }
     }
 
-    /// Goes on with the same leaves and order; returns whether all have their lists.
+    /// Continues with the same leaves and order; returns whether all leaves have their lists.
     pub(crate) fn advance(&mut self, leaves: &Leaves, order: &Order, budget: &mut Budget) -> bool {
         if !self.at_vertices.advance(leaves, order, budget) {
             return false;
@@ -230,7 +248,8 @@ impl NeighboursBuilder {
         true
     }
 
-    /// Lists a block and its later neighbours, with the pairs of triangles that are to be compared; nothing if the block is crowded.
+    /// Lists a block and its later neighbours with the pairs of triangles to compare; nothing if it
+    /// is crowded.
     fn list_neighbours(
         &mut self,
         (leaves, order): (&Leaves, &Order),
@@ -239,7 +258,7 @@ impl NeighboursBuilder {
     ) {
         let (at_vertices, list) = (&self.at_vertices, &mut self.list);
         list.clear();
-        // First the pairs that share a vertex.
+        // Masks first hold the pairs that share a vertex.
         list.push((block, 0));
         for (lane, place) in own.enumerate() {
             for vertex in order.corners(TreeTriangle(place as u32)) {
@@ -271,7 +290,7 @@ impl NeighboursBuilder {
         }
     }
 
-    /// The table, when it is done.
+    /// Returns the finished table.
     pub(super) fn finish(
         self,
         wide_nodes: &[WideNode],
@@ -280,7 +299,7 @@ impl NeighboursBuilder {
     ) -> Neighbours {
         let mut of_blocks = self.of_blocks;
         of_blocks.finish();
-        // As much memory as the lists, and no longer needed.
+        // It is as large as the lists, and no longer needed.
         drop(self.at_vertices);
         let wide_nodes = if leaves.are_blocks() { wide_nodes } else { &[] };
         let is_crowded = |block: u32| of_blocks.list(block).is_empty();
@@ -299,8 +318,10 @@ impl NeighboursBuilder {
 
 held!(NeighboursBuilder: at_vertices, of_blocks, list[]);
 
-/// The neighbours of leaves, each a block, as those of the wide nodes that hold nothing but leaves. Wide nodes are numbered as their
-/// leaves are, so what is later there is later here.
+/// Neighbours of wide nodes of leaves, from the neighbours of their leaves, each of which is a
+/// block.
+///
+/// Wide nodes are numbered as their leaves are, so a later leaf is in a later wide node.
 fn lists_of_wide_nodes(
     wide_nodes: &[WideNode],
     leaves: &Leaves,
@@ -348,7 +369,8 @@ mod tests {
     use crate::kernels::{Instructions, dispatch};
     use crate::mesh::Topology;
 
-    /// Every two blocks against a comparison of all their corners. Returns the number of crowded blocks.
+    /// Checks every two blocks against a comparison of all corners. Returns how many blocks are
+    /// crowded.
     fn check(triangles: &[[u32; 3]], vertices: usize, leaf_sizes: &[u32]) -> usize {
         let topology = Topology::new(triangles, vertices);
         let backwards = (0..triangles.len() as u32).rev().collect();
@@ -411,7 +433,7 @@ mod tests {
         for leaf_sizes in [&[8][..], &[5, 8, 1], &[16, 3]] {
             assert_eq!(check(&grid(20), 21 * 21, leaf_sizes), 0);
         }
-        // Strangers, the same triangle again and again, triangles that are points.
+        // Strangers, one triangle again and again, triangles that are points.
         assert_eq!(check(&[[0, 1, 2]; 40], 3, &[8]), 0);
         assert_eq!(check(&[[4, 4, 4]; 20], 9, &[8]), 0);
         let strangers: Vec<[u32; 3]> = (0..50).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();

@@ -1,14 +1,10 @@
-//! The distinct vertices below every node: what makes a box straight from the shape, without looking at children.
+//! Vertex sets: the distinct vertices below every node, from which its box is made.
 //!
-//! Because vertices are numbered as the triangles in tree order first use them, those that a run of triangles uses first are
-//! a run of numbers. What is left is the *border*: vertices that an earlier triangle used first. On a surface the border of
-//! k triangles is about the square root of k, so all levels together cost little more than the lowest.
-//!
-//! A leaf has few vertices, and is made more often than anything else: it is all border, whose length is made a multiple of four,
-//! so that most leaves take equally many steps. Most have twelve, and most wide nodes are leaves of twelve altogether, whose
-//! lists then are one.
-//!
-//! Paper, 3.3: "we update the node's AABB by traversing the shared vertices of the faces in the node".
+//! Vertices are numbered as the triangles in tree order first use them. So those that a node's
+//! triangles use first are a run of numbers. The others, which an earlier triangle uses, are the
+//! node's *border*. On a surface the border of k triangles is about the square root of k, so all
+//! levels cost little more than the lowest. Paper, 3.3: "we update the node's AABB by traversing
+//! the shared vertices of the faces in the node".
 
 use super::build::Plan;
 use crate::held::held;
@@ -17,46 +13,57 @@ use crate::kernels::extent::TWELVE;
 use crate::mesh::Order;
 use crate::threads::Budget;
 
-/// A leaf of so many vertices has few: eight triangles that share none have no more.
+/// Most vertices of a leaf that is stored as all border: eight triangles that share none have as
+/// many.
 const FEW: usize = 24;
 
-/// Indexed by node, counted level by level.
+/// Vertices below every node, indexed by node, level by level.
+///
+/// Runs take away most of the memory for vertex lists that the paper regrets (3.3).
+///
+/// A small leaf, which is refitted more often than anything else, is all border. The border's
+/// length is a multiple of four, so that most leaves take equally many steps. Most have twelve, and
+/// most wide nodes are leaves of twelve altogether, whose lists are then read as one.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct VertexSets {
     sets: Vec<Set>,
     border: Vec<TreeVertex>,
 }
 
-/// The vertices of one node.
+/// Vertices below one node.
 #[derive(Clone, Copy, Debug)]
 struct Set {
     /// First and end of the run of vertices that the node's triangles use first.
     run: [u32; 2],
-    /// The first border vertex, and how many there are.
+    /// First border vertex.
     border: usize,
+    /// How many border vertices there are.
     borders: u32,
-    /// Whether this node and those beside it are a full wide node of leaves, each of twelve border vertices.
+    /// Whether this is the first of a full wide node of leaves, each of twelve border vertices.
     in_twelves: bool,
 }
 
-/// Vertex sets on their way, made some nodes at a time.
+/// Vertex sets under construction, made some nodes at a time.
 pub(super) struct VertexSetsBuilder {
     all: VertexSets,
-    /// The first triangle, and how many vertices are used before each one, and by all.
+    /// First triangle.
     start: usize,
+    /// How many vertices are used before each triangle, and by all.
     used_before: Vec<u32>,
-    /// The vertices that an earlier tree uses first, of which there are few; and which this tree does, the first of them.
+    /// Few vertices that an earlier tree uses first, ascending.
     earlier: Vec<u32>,
+    /// First vertex that this tree is the first to use.
     first_vertex: u32,
-    /// The last node that was seen to have each of these, and each of its own.
+    /// Last node that was seen to have each of `earlier`, and each of this tree's own vertices.
     seen_by: Vec<u32>,
 }
 
 impl VertexSetsBuilder {
-    /// Of a plan over some triangles, which are the first to use vertices from `first_vertex` on.
+    /// Begins the sets of a plan over triangles that are the first to use vertices from
+    /// `first_vertex` on.
     pub(super) fn new(plan: &Plan, order: &Order, TreeVertex(first_vertex): TreeVertex) -> Self {
         let all = plan
-            .parts
+            .nodes
             .first()
             .map_or(0..0, |root| root.triangles.clone());
         let [start, end] = [all.start as usize, all.end as usize];
@@ -80,7 +87,7 @@ impl VertexSetsBuilder {
         let seen_by = vec![u32::MAX; earlier.len() + (used - first_vertex) as usize];
         Self {
             all: VertexSets {
-                sets: Vec::with_capacity(plan.parts.len()),
+                sets: Vec::with_capacity(plan.nodes.len()),
                 border: Vec::new(),
             },
             start,
@@ -91,7 +98,7 @@ impl VertexSetsBuilder {
         }
     }
 
-    /// Goes on with the same plan and order; returns whether all nodes have their vertices.
+    /// Continues with the same plan and order; returns whether all nodes have their vertices.
     pub(super) fn advance(&mut self, plan: &Plan, order: &Order, budget: &mut Budget) -> bool {
         let VertexSets { sets, border } = &mut self.all;
         let earlier = &self.earlier;
@@ -99,12 +106,12 @@ impl VertexSetsBuilder {
             Some(own) => earlier.len() + own as usize,
             None => earlier.partition_point(|&it| it < vertex),
         };
-        while let Some(part) = plan.parts.get(sets.len()) {
+        while let Some(plan_node) = plan.nodes.get(sets.len()) {
             if budget.is_spent() {
                 return false;
             }
             let node = sets.len() as u32;
-            let triangles = part.triangles.start as usize..part.triangles.end as usize;
+            let triangles = plan_node.triangles.start as usize..plan_node.triangles.end as usize;
             budget.spend(triangles.len());
             let mut run = [triangles.start, triangles.end]
                 .map(|triangle| self.used_before[triangle - self.start]);
@@ -120,7 +127,7 @@ impl VertexSetsBuilder {
                 }
             }
             let count = border.len() - first + (run[1] - run[0]) as usize;
-            if part.children.is_empty() && count <= FEW {
+            if plan_node.children.is_empty() && count <= FEW {
                 border.extend((run[0]..run[1]).map(TreeVertex));
                 let last = border[border.len() - 1];
                 border.resize(first + count.next_multiple_of(4), last);
@@ -136,14 +143,15 @@ impl VertexSetsBuilder {
         true
     }
 
-    /// The sets, when they are done.
+    /// Returns the finished sets.
     pub(super) fn finish(self, plan: &Plan) -> VertexSets {
         let VertexSets {
             mut sets,
             mut border,
         } = self.all;
-        for part in &plan.parts {
-            let group = &mut sets[part.children.start as usize..part.children.end as usize];
+        for plan_node in &plan.nodes {
+            let group =
+                &mut sets[plan_node.children.start as usize..plan_node.children.end as usize];
             let is_twelve = |set: &Set| set.borders as usize == TWELVE && set.run[0] == set.run[1];
             if group.len() == plan.degree && group.iter().all(is_twelve) {
                 group[0].in_twelves = true;
@@ -157,12 +165,12 @@ impl VertexSetsBuilder {
 held!(VertexSetsBuilder: all, used_before[], earlier[], seen_by[]);
 
 impl VertexSets {
-    /// The number of nodes.
+    /// Returns the number of nodes.
     pub(crate) fn len(&self) -> usize {
         self.sets.len()
     }
 
-    /// The vertices below a node: a run and a border, in which one may be more than once.
+    /// Returns the vertices below a node: a run and a border, in which one may be repeated.
     #[inline]
     pub(crate) fn run_and_border(&self, node: usize) -> (std::ops::Range<usize>, &[TreeVertex]) {
         let set = self.sets[node];
@@ -171,7 +179,8 @@ impl VertexSets {
         (start as usize..end as usize, border)
     }
 
-    /// The vertices below each of `N` nodes from the first of a wide node on, if these are leaves of twelve.
+    /// Returns the vertices below each of `N` nodes from the first of a wide node on, if each is a
+    /// leaf of twelve.
     #[inline]
     pub(crate) fn twelves<const N: usize>(
         &self,
@@ -184,7 +193,7 @@ impl VertexSets {
         border?.first_chunk()
     }
 
-    /// The vertices below a node, run first.
+    /// Iterates over the vertices below a node, the run first.
     pub(crate) fn vertices(&self, node: usize) -> impl Iterator<Item = TreeVertex> {
         let (run, border) = self.run_and_border(node);
         run.map(|vertex| TreeVertex(vertex as u32))

@@ -1,8 +1,8 @@
-//! The children of one node, side by side: a wide node.
+//! Wide node: the children of one node, side by side.
 
 use crate::ids::{LeafId, WideNodeId};
 
-/// What is below a node.
+/// Link from a node down: to the wide node of its children, or to its leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Child {
     /// A wide node, which holds the node's children.
@@ -10,12 +10,14 @@ pub(crate) enum Child {
     Leaf(LeafId),
 }
 
-/// A [`Child`], or nothing in a lane that is not used, in one word.
+/// [`Child`] packed into one word; an unused lane has a sentinel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct PackedChild(u32);
 
 impl PackedChild {
+    /// Bit that marks a leaf.
     const LEAF: u32 = 1 << 31;
+    /// Sentinel of an unused lane.
     const NONE: Self = Self(u32::MAX);
 
     fn new(child: Child) -> Self {
@@ -25,7 +27,7 @@ impl PackedChild {
         }
     }
 
-    /// Of a lane that is used.
+    /// Unpacks a used lane.
     #[inline(always)]
     fn get(self) -> Child {
         if self.0 & Self::LEAF == 0 {
@@ -36,20 +38,22 @@ impl PackedChild {
     }
 }
 
-/// The most nodes that have one parent: the largest degree.
+/// Most nodes that have one parent: the largest degree.
 const MOST_LANES: usize = 8;
 
-/// Up to eight nodes with one parent, as many as the degree of the tree at most. Lanes are used from the first on.
+/// Up to eight nodes with one parent, at most as many as the tree's degree. Lanes are used from the
+/// first on.
 #[derive(Clone, Debug)]
 pub(crate) struct WideNode {
     children: [PackedChild; MOST_LANES],
-    /// The number of the node in lane 0 when nodes are counted level by level: its place in `VertexSets`.
+    /// Number of the node in lane 0, counted level by level: its place in `VertexSets`.
     pub(crate) first_node: u32,
-    /// The leaf in lane 0 if all lanes that are used are leaves, which then have consecutive numbers.
+    /// Leaf in lane 0, if all used lanes are leaves; their numbers are consecutive.
     pub(crate) first_leaf: Option<LeafId>,
 }
 
 impl WideNode {
+    /// Begins a wide node without children.
     pub(super) fn new(first_node: u32) -> Self {
         Self {
             children: [PackedChild::NONE; MOST_LANES],
@@ -58,17 +62,18 @@ impl WideNode {
         }
     }
 
+    /// Sets the link down from the node in a lane.
     pub(super) fn set_child(&mut self, lane: usize, child: Child) {
         self.children[lane] = PackedChild::new(child);
     }
 
-    /// What is below the node in a lane that is used.
+    /// Returns the link down from the node in a used lane.
     #[inline(always)]
     pub(crate) fn child(&self, lane: usize) -> Child {
         self.children[lane].get()
     }
 
-    /// What is below the nodes in all lanes that are used.
+    /// Iterates over the links down of all used lanes.
     #[inline]
     pub(crate) fn children(&self) -> impl Iterator<Item = Child> {
         let used = self.children.into_iter();
@@ -76,7 +81,7 @@ impl WideNode {
             .map(PackedChild::get)
     }
 
-    /// How many lanes are used.
+    /// Returns how many lanes are used.
     #[inline]
     pub(crate) fn len(&self) -> usize {
         self.children().count()

@@ -1,8 +1,10 @@
-//! Some levels of boxes at once: the lowest of them from their vertices, those above merged from their children.
+//! Bottom-up refit of several levels: the lowest from their vertices, upper ones from their
+//! children.
 //!
-//! "The strength of this method is that a parent AABB can always be calculated very efficiently directly from the AABBs of its
-//! children" (paper, 3.3). A leaf has no children: whatever its level, its box is made from its vertices, or, where leaves are single
-//! triangles, from its corners.
+//! "The strength of this method is that a parent AABB can always be calculated very efficiently
+//! directly from the AABBs of its children" (paper, 3.3). A leaf has no children: its box is made
+//! from its vertices, whatever its level. Where leaves are single triangles, it is made from the
+//! triangle's corners.
 
 use super::refit::{refit_from_children, refit_from_vertices};
 use super::refitted::{Refit, Refitted};
@@ -10,8 +12,9 @@ use crate::ids::WideNodeId;
 use crate::kernels::Coordinate;
 use crate::tree::Child;
 
-/// Refits the nodes of `top` and of `levels - 1` levels of wide nodes below it. `wide_nodes` is scratch. Returns how many boxes it
-/// made.
+/// Refits the nodes of `top` and `levels - 1` levels of wide nodes below it, bottom-up.
+///
+/// Returns how many boxes it made. `wide_nodes` is scratch.
 pub(super) fn refit_levels<S: Coordinate>(
     refit: &Refit,
     one: &mut Refitted<S>,
@@ -19,7 +22,8 @@ pub(super) fn refit_levels<S: Coordinate>(
     levels: u32,
     wide_nodes: &mut Vec<WideNodeId>,
 ) -> u64 {
-    // The wide nodes of the subtree level by level, in ascending order; those from `lowest` on are the lowest level made here.
+    // The wide nodes of the subtree level by level, ascending. Those from `lowest` on are the
+    // lowest level to refit.
     wide_nodes.clear();
     let mut lowest = 0;
     if top == WideNodeId(0) {

@@ -1,15 +1,19 @@
-//! What a traversal has reached and is to be refitted: wide nodes, or leaves, each once however often it was reached.
+//! Dirty set: the wide nodes or leaves that a traversal reached and that are to be refitted.
+//!
+//! Each is in the set once, however often it was reached.
 
 use crate::held::held;
 
-/// A set of numbers that are near each other: a bit for each.
+/// Bit set of numbers that are near each other. Costs depend on the words between the first and the
+/// last, not on all.
 #[derive(Debug)]
 pub(crate) struct DirtySet {
     bits: Vec<u64>,
-    /// The first and the last word in which there are any.
+    /// First and last word that may have bits.
     ends: [usize; 2],
 }
 
+/// Sentinel of `ends`: no word has a bit.
 const NO_WORDS: [usize; 2] = [usize::MAX, 0];
 
 impl Default for DirtySet {
@@ -22,13 +26,13 @@ impl Default for DirtySet {
 }
 
 impl DirtySet {
-    /// Puts one into the set.
+    /// Adds a number. O(1).
     #[inline]
     pub(crate) fn insert(&mut self, number: u32) {
         self.insert_bits(number as usize / 64, 1 << (number % 64));
     }
 
-    /// Puts some of eight in a row into the set, a bit for each.
+    /// Adds some of eight consecutive numbers, a bit for each. O(1).
     #[inline]
     pub(crate) fn insert_eight(&mut self, first: u32, which: u8) {
         let (word, shift) = (first as usize / 64, first % 64);
@@ -38,7 +42,7 @@ impl DirtySet {
         }
     }
 
-    /// Puts all numbers below one into the set.
+    /// Adds all numbers below `end`.
     pub(crate) fn insert_below(&mut self, end: usize) {
         for word in 0..end / 64 {
             self.insert_bits(word, u64::MAX);
@@ -54,6 +58,7 @@ impl DirtySet {
         self.bits[word] |= bits;
     }
 
+    /// Makes room for words up to `last`, and widens the range that has numbers.
     #[inline]
     fn reach_to(&mut self, first: usize, last: usize) {
         if last >= self.bits.len() {
@@ -62,12 +67,12 @@ impl DirtySet {
         self.ends = [self.ends[0].min(first), self.ends[1].max(last)];
     }
 
-    /// Whether nothing is in the set.
+    /// Whether the set is empty. O(1).
     pub(crate) fn is_empty(&self) -> bool {
         self.ends == NO_WORDS
     }
 
-    /// Takes all out of the set.
+    /// Removes all numbers.
     pub(crate) fn clear(&mut self) {
         if !self.is_empty() {
             let words = self.words();
@@ -76,7 +81,7 @@ impl DirtySet {
         }
     }
 
-    /// Puts all that is in another set into this one, and takes it out of the other.
+    /// Moves all numbers of another set into this one.
     pub(crate) fn take(&mut self, other: &mut Self) {
         if other.is_empty() {
             return;
@@ -89,7 +94,7 @@ impl DirtySet {
         other.clear();
     }
 
-    /// The words of 64 bits in which there are any.
+    /// Returns the range of words of 64 bits that has all numbers.
     pub(super) fn words(&self) -> std::ops::Range<usize> {
         if self.is_empty() {
             return 0..0;
@@ -97,19 +102,19 @@ impl DirtySet {
         self.ends[0]..self.ends[1] + 1
     }
 
-    /// How many there are.
+    /// Returns how many numbers are in the set.
     pub(crate) fn count(&self) -> usize {
         let words = &self.bits[self.words()];
         words.iter().map(|bits| bits.count_ones() as usize).sum()
     }
 
-    /// Whether there are any in some words.
+    /// Whether any number is in some words.
     #[inline]
     pub(super) fn are_any_in(&self, words: std::ops::Range<usize>) -> bool {
         self.bits[words].iter().any(|&bits| bits != 0)
     }
 
-    /// Those in some words, ascending.
+    /// Returns the numbers in some words, ascending.
     #[inline]
     pub(super) fn of(&self, words: std::ops::Range<usize>) -> impl Iterator<Item = u32> {
         words.flat_map(|word| {

@@ -1,8 +1,9 @@
-//! How far ahead: the level down to which boxes are made before a traversal begins.
+//! Hybrid update: the level down to which boxes are made ahead of a traversal.
 //!
-//! Where a traversal is going to reach most of a tree anyway, it is cheapest to make all of it at once: boxes of inner nodes are
-//! then merged from their children's and never made from vertices. What it is going to reach is about what it reached last time;
-//! in a body that meets itself it is all, because every leaf meets at least itself. The paper's level n / 2 is for all other cases.
+//! Where a traversal will reach most of a tree, it is cheapest to make all boxes at once. Boxes of
+//! inner nodes are then merged from their children's, and never made from vertices. A traversal
+//! reaches about as much as the last one did. In a body that meets itself it reaches all, because
+//! every leaf meets at least itself. In all other cases the level is the paper's n / 2.
 
 use super::bottom_up::refit_levels;
 use super::refitted::{Partner, Refit, Refitted};
@@ -12,10 +13,13 @@ use crate::ids::WideNodeId;
 use crate::kernels::Coordinate;
 use crate::statistics::Statistics;
 
-/// One leaf in so many reached is much of a tree: on spheres in contact, nodes that are reached are then about half of all.
+/// Much of a tree was reached if one leaf in this many was. On spheres in contact, about half of
+/// all nodes are then reached.
 const MUCH: usize = 10;
 
-/// The level of the lowest boxes made ahead, in a tree whose deepest leaf is at level `depth`; `much` of it was reached last time.
+/// Level of the lowest boxes made ahead; `depth` is the level of the deepest leaf.
+///
+/// `much`: whether much of the tree was reached the last time.
 fn level_ahead(update: Update, depth: u32, much: bool) -> u32 {
     match update {
         Update::BottomUp => depth,
@@ -26,7 +30,7 @@ fn level_ahead(update: Update, depth: u32, much: bool) -> u32 {
 }
 
 impl Refit<'_> {
-    /// Refits the upper levels, unless they are valid. `wide_nodes` is scratch.
+    /// Refits the upper levels before a traversal, unless they are valid. `wide_nodes` is scratch.
     pub(crate) fn ahead<S: Coordinate>(
         &self,
         one: &mut Refitted<S>,
@@ -35,13 +39,14 @@ impl Refit<'_> {
         statistics: &mut Statistics,
     ) {
         let root = WideNodeId(0);
-        // The root is the last box that is made, and the first that any strategy needs.
+        // The root is the last box that is made, and the first that any strategy needs. So it is
+        // valid if levels were refitted ahead.
         one.boxes.expect(one.source.version());
         let depth = one.tree.depth;
         let level = |much| level_ahead(self.update, depth, much);
         if one.boxes.is_valid(root) {
-            // In this shape the body met another before, and was refitted in part. All of it is
-            // needed now: better at once than on the way.
+            // The body was refitted in part, since it met another in this shape before. All of it
+            // is needed now: better at once than on the way.
             let whole = partner == Partner::Itself && level(true) == depth;
             if !whole || one.boxes.are_nodes_complete() {
                 return;
@@ -61,7 +66,7 @@ impl Refit<'_> {
         if levels > depth {
             one.boxes.complete_nodes();
         }
-        // The root alone, from the vertices, is the beginning of top-down.
+        // A box of the root alone, made from the vertices, is where top-down begins.
         *(if self.update == Update::TopDown {
             &mut statistics.boxes_top_down
         } else {

@@ -1,8 +1,9 @@
-//! Boxes of the triangles in leaves that are about to meet others.
+//! Refit of the boxes of triangles in leaves that a traversal reached.
 //!
-//! The paper's leaves are single triangles. Here a leaf holds several, and many leaves whose own boxes a traversal needs never meet
-//! another: on two spheres in contact, half of them. So the triangles get theirs last of all, but in a body that meets itself, where
-//! every leaf meets at least itself: there they are made ahead.
+//! The paper's leaves are single triangles; here a leaf holds several. Many leaves whose own boxes
+//! a traversal needs never meet another: on two spheres in contact, half of them. So boxes of
+//! triangles are made last of all. In a body that meets itself they are made ahead, because every
+//! leaf meets at least itself.
 
 use super::dirty_set::DirtySet;
 use super::refitted::{Refit, Refitted};
@@ -16,10 +17,10 @@ use std::ops::Range;
 
 /// Words of 64 leaves in a job.
 const WORDS: usize = 2;
-/// So many words of 64 leaves are looked through before it is asked whether the query was interrupted.
+/// Words of 64 leaves between two checks for interruption.
 const UNINTERRUPTED: usize = 64;
 
-/// The leaves of some words, their boxes, and how many leaves and triangles had boxes made.
+/// Job: the leaves of some words of a dirty set, with their boxes, and counters of the boxes made.
 struct LeafRun<'t> {
     words: Range<usize>,
     boxes: LeavesMut<'t>,
@@ -29,8 +30,7 @@ struct LeafRun<'t> {
 }
 
 impl Refit<'_> {
-    /// Makes the boxes of the triangles in leaves that a traversal has reached, unless they are
-    /// valid, and empties the set.
+    /// Makes the boxes of the triangles in all reached leaves that are stale, and empties the set.
     pub(crate) fn reached_leaves<S: Coordinate>(
         &self,
         one: &mut Refitted<S>,
@@ -77,7 +77,7 @@ impl Refit<'_> {
 }
 
 impl LeafRun<'_> {
-    /// Jobs of fewer words, those in which something was reached.
+    /// Cuts the words into smaller jobs; jobs without a reached leaf are left out.
     fn cut(self, reached: &DirtySet, leaves: &Leaves) -> Vec<Self> {
         let Range { start, end } = self.words;
         let mut rest = self.boxes;
@@ -119,7 +119,7 @@ impl LeafRun<'_> {
     }
 }
 
-/// Makes the boxes of one to eight triangles; returns the box of all.
+/// Makes the boxes of one to eight triangles, and returns the box of all.
 #[inline(always)]
 pub(super) fn refit_block<I: Simd, B: BoxSource>(
     i: I,
@@ -127,7 +127,7 @@ pub(super) fn refit_block<I: Simd, B: BoxSource>(
     block: &mut EightBoxes,
     source: &B,
 ) -> Extent<I> {
-    // What is missing to eight is the last again.
+    // A short block is padded to eight with its last triangle.
     let padded;
     let eight: &[[TreeVertex; 3]; BLOCK_LANES] = if let Ok(eight) = triangles.try_into() {
         eight
@@ -145,7 +145,7 @@ pub(super) fn refit_block<I: Simd, B: BoxSource>(
     Four::new(first).store(Four::new(later), triangles.len(), block)
 }
 
-/// One to seven triangles, and the last again.
+/// Pads one to seven triangles to eight with the last.
 #[inline(never)]
 fn padded_to_eight(triangles: &[[TreeVertex; 3]]) -> [[TreeVertex; 3]; 8] {
     let mut eight = [triangles[triangles.len() - 1]; 8];

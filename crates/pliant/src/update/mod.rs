@@ -1,20 +1,29 @@
-//! Refitting: making boxes valid for the shape a body has now (paper, 3.3).
+//! Refit: making boxes valid for the current shape of a body (paper, 3.3).
 //!
-//! One idea carries all three strategies of the paper: the boxes down to some level are made *ahead*, all at once and
-//! bottom-up; what lies deeper is made top-down, when it is *reached*.
+//! One mechanism serves all three strategies of the paper. Boxes down to some level are made
+//! *ahead* of a traversal, all at once, bottom-up. Deeper ones are made top-down, when they are
+//! *reached*.
 //!
-//! ```text
-//! bottom-up   ahead: down to the deepest leaf
-//! top-down    ahead: the root only
-//! hybrid      ahead: down to level floor(n / 2), or a given one, where n is the level of the deepest leaf;
-//!             all levels, if none is given and much of the tree was reached the last time, or a body meets itself
-//! ```
+//! | strategy | boxes made ahead |
+//! |---|---|
+//! | bottom-up | down to level n, the level of the deepest leaf |
+//! | top-down | the root's |
+//! | hybrid | down to level floor(n / 2), or a given one |
+//! | hybrid, no level given | all, if much was reached the last time or the body meets itself |
 //!
-//! `hybrid` decides how far ahead, `bottom_up` refits some levels below a wide node, `top_down` what a traversal reaches, and `refit`
-//! makes the boxes, for all of them; `leaves` makes those of single triangles, `whole` all
-//! of a body that meets itself, `quantize` quantizes them; a `DirtySet` is what was reached. Boxes made are
-//! counted, so that the strategies can be compared by their work. What boxes are made of (`Source`) and
-//! the degree are types where boxes are made, and matched on once a batch.
+//! | file | what |
+//! |---|---|
+//! | `hybrid` | decides how far ahead |
+//! | `bottom_up` | refits several levels below a wide node |
+//! | `top_down` | refits the wide nodes that a traversal reached |
+//! | `refit` | makes the boxes of wide nodes, for all of these |
+//! | `leaves` | makes the boxes of single triangles |
+//! | `whole` | makes all boxes of a body that meets itself |
+//! | `quantize` | quantizes boxes of triangles |
+//! | `dirty_set` | the set of what was reached |
+//!
+//! Boxes made are counted, so that strategies can be compared by their work. The source of boxes
+//! (`Source`) and the degree are types here, matched on once a batch.
 
 mod bottom_up;
 mod dirty_set;

@@ -1,8 +1,10 @@
-//! Quantized boxes of triangles, for a body that meets itself: nearly all its leaves overlap neighbours in the mesh none of whose
-//! triangles they touch but those that share a vertex, and quantized boxes say so sooner (see `kernels::quantized`).
+//! Quantization of triangle boxes to bytes, for a body that meets itself.
 //!
-//! One unit is for all leaves, a part of their mean length. Leaves that are much longer do not fit and are not told apart from
-//! others; much shorter ones are told apart less often. Either way nothing is missed, for the boxes themselves are asked again.
+//! Nearly all its leaves overlap neighbours in the mesh, but touch only triangles that share a
+//! vertex. Quantized boxes reject such pairs sooner (`kernels::quantized`). One unit serves all
+//! leaves: a part of their mean length. Leaves that are much longer do not fit, and are never told
+//! apart; much shorter ones are told apart less often. Nothing is missed either way, for the boxes
+//! themselves are compared next.
 
 use super::dirty_set::DirtySet;
 use super::refitted::{Refit, Refitted};
@@ -16,8 +18,10 @@ use crate::tree::{BoxSet, Child, Quantized, Tree};
 const UNITS: f32 = 32.0;
 
 impl Refit<'_> {
-    /// Makes the boxes of the triangles in all leaves, and quantizes them where leaves are blocks;
-    /// all nodes are valid. `reached` is scratch.
+    /// Makes the boxes of the triangles in all leaves, and quantizes them where each leaf is a
+    /// block.
+    ///
+    /// All nodes are valid. `reached` is scratch.
     pub(crate) fn all_leaves<S: Coordinate>(
         &self,
         one: &mut Refitted<S>,
@@ -33,7 +37,9 @@ impl Refit<'_> {
     }
 }
 
-/// Quantizes the boxes of all leaves, unless leaves are not blocks, or they lie too far from zero for it. All other boxes are valid.
+/// Quantizes the boxes of the triangles in all leaves. All other boxes are valid.
+///
+/// Does nothing if leaves are not blocks, if it is done, or if they lie too far from zero.
 fn quantize_all<S: Coordinate>(refit: &Refit, one: &mut Refitted<S>) {
     let tree = one.tree;
     if !tree.leaves.are_blocks() || one.boxes.quantized().is_some() {
@@ -63,7 +69,7 @@ fn quantize_all<S: Coordinate>(refit: &Refit, one: &mut Refitted<S>) {
     one.boxes.complete_quantized();
 }
 
-/// Says of all leaves whether they are short enough.
+/// Records of each leaf whether it is short enough for its quantized boxes.
 fn set_fits(tree: &Tree, boxes: &mut BoxSet, units: f32) {
     let (nodes, _, _, Quantized { blocks, .. }) = boxes.all_mut();
     for (id, wide_node) in tree.with_ids() {
@@ -78,13 +84,13 @@ fn set_fits(tree: &Tree, boxes: &mut BoxSet, units: f32) {
     }
 }
 
-/// How many units there are to a length of one; `None` if quantized boxes are of no use. All nodes are valid.
+/// Units to a length of one; `None` if quantized boxes are of no use. All nodes are valid.
 pub(super) fn units_of(tree: &Tree, boxes: &BoxSet) -> Option<f32> {
     let nodes = boxes.nodes();
     let (mut sum, mut count) = (0.0, 0);
     for (id, wide_node) in tree.with_ids() {
         if wide_node.first_leaf.is_some() {
-            // Lanes that are not used are not numbers.
+            // Unused lanes are NaN.
             nodes.longest_sides(id, |_, side| sum += side.max(0.0));
             count += wide_node.len();
         }
@@ -93,7 +99,7 @@ pub(super) fn units_of(tree: &Tree, boxes: &BoxSet) -> Option<f32> {
     (units.is_finite() && is_near_enough(boxes, units)).then_some(units)
 }
 
-/// Whether nothing lies too many units from zero.
+/// Whether the whole body lies few enough units from zero.
 pub(super) fn is_near_enough(boxes: &BoxSet, units: f32) -> bool {
     let all = boxes.nodes().one(NodeId::ROOT);
     let ends = all.lo.iter().chain(&all.hi);

@@ -1,7 +1,7 @@
-//! Boxes of wide nodes, from the vertices or from the wide nodes below them, as many at once as there are threads.
+//! Refit of wide nodes, from the vertices or from the wide nodes below them, on several threads.
 //!
-//! Wide nodes are stored level by level in the order of their triangles. So a list of them in ascending order is cut into runs, and
-//! each run owns one part of the array: no two jobs write one box.
+//! Wide nodes are stored level by level in the order of their triangles. So an ascending list of
+//! them is cut into runs, and each run owns one part of the array. No two jobs write one box.
 
 use super::refitted::{Refit, Refitted};
 use crate::ids::WideNodeId;
@@ -10,11 +10,10 @@ use crate::kernels::{BoxLanes, Coordinate, Simd, dispatch};
 use crate::threads::Grain;
 use crate::tree::{BoxSource, Child, NodesMut, Over, Source, Tree, of_degree, of_source};
 
-/// The wide nodes of so many jobs are refitted before it is asked whether the query was
-/// interrupted.
+/// Jobs whose wide nodes are refitted between two checks for interruption.
 const UNINTERRUPTED: usize = 64;
 
-/// A maker of the boxes of wide nodes, with all that it reads and writes for a run of them.
+/// Maker of the boxes of wide nodes, with all that it reads and writes for a run of them.
 pub(super) trait Below<const N: usize>: Sized + Send {
     /// A job of wide nodes.
     const GRAIN: Grain;
@@ -22,7 +21,7 @@ pub(super) trait Below<const N: usize>: Sized + Send {
     /// Cuts it in two before a wide node.
     fn split_before(self, wide_node: WideNodeId, tree: &Tree) -> [Self; 2];
 
-    /// Makes the boxes of one wide node, and says how many they are.
+    /// Makes the boxes of one wide node. Returns how many they are.
     fn make<I: Simd, B: BoxSource>(
         &mut self,
         i: I,
@@ -33,7 +32,7 @@ pub(super) trait Below<const N: usize>: Sized + Send {
     ) -> usize;
 }
 
-/// A run of wide nodes, and the part of a set of boxes that holds theirs.
+/// Job: a run of wide nodes, the part of a box set that holds their boxes, and a maker.
 pub(super) struct NodeRun<'t, const N: usize, F> {
     pub(super) run: &'t [WideNodeId],
     pub(super) nodes: NodesMut<'t, N>,
@@ -42,8 +41,9 @@ pub(super) struct NodeRun<'t, const N: usize, F> {
     pub(super) made: usize,
 }
 
-/// Vertices, or, where boxes are merged, the boxes of wide nodes below, which are valid: from the
-/// first of them on.
+/// Maker that reads vertices, or merges the boxes of wide nodes below.
+///
+/// Boxes to merge are valid, and given from the wide node `first` on.
 #[derive(Clone, Copy)]
 struct Merged<'t, const N: usize> {
     merges: bool,
@@ -51,7 +51,8 @@ struct Merged<'t, const N: usize> {
     boxes: &'t [BoxLanes<N>],
 }
 
-/// Makes the boxes of wide nodes from the vertices below them; they come in ascending order. Returns how many boxes it made.
+/// Refits wide nodes from the vertices below them; `run` is ascending. Returns how many boxes it
+/// made.
 pub(super) fn refit_from_vertices<S: Coordinate>(
     refit: &Refit,
     one: &mut Refitted<S>,
@@ -67,8 +68,10 @@ pub(super) fn refit_from_vertices<S: Coordinate>(
     })
 }
 
-/// Makes the boxes of wide nodes from those of the wide nodes below them, which are valid, and from the vertices of their leaves. They
-/// come in ascending order and are made level by level, children before their parents.
+/// Refits wide nodes from the valid wide nodes below them, and leaves from their vertices.
+///
+/// `run` is ascending; it is refitted level by level, children before parents. Returns how many
+/// boxes it made.
 pub(super) fn refit_from_children<S: Coordinate>(
     refit: &Refit,
     one: &mut Refitted<S>,
@@ -92,8 +95,9 @@ pub(super) fn refit_from_children<S: Coordinate>(
     made
 }
 
-/// Makes the boxes of a run, cut into shorter ones if there are threads for them, and shows what
-/// each was made from. Returns how many boxes it made.
+/// Refits a run of wide nodes, cut into jobs if there are threads for them.
+///
+/// Shows the maker of each job when it is done. Returns how many boxes were made.
 pub(super) fn refit_all<const N: usize, S: Coordinate, F: Below<N>>(
     refit: &Refit,
     whole: NodeRun<'_, N, F>,
@@ -130,7 +134,7 @@ pub(super) fn refit_all<const N: usize, S: Coordinate, F: Below<N>>(
 }
 
 impl<const N: usize, F: Below<N>> NodeRun<'_, N, F> {
-    /// Jobs of fewer wide nodes.
+    /// Cuts the run into jobs of fewer wide nodes.
     fn cut(self, tree: &Tree) -> Vec<Self> {
         let (mut nodes, mut from) = (self.nodes, self.from);
         let mut jobs = Vec::with_capacity(self.run.len().div_ceil(F::GRAIN.items));

@@ -1,11 +1,11 @@
-//! What is refitted, and with what.
+//! Parameters of a refit: the tree, its boxes, their source, and how boxes are made.
 
 use crate::kernels::Instructions;
 use crate::options::Update;
 use crate::threads::Executor;
 use crate::tree::{BoxSet, Source, Tree};
 
-/// What a body meets in a query: of how much of its tree boxes are made ahead depends on it.
+/// Partner of a body in a query: it decides how much of the tree is made ahead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Partner {
     Another,
@@ -13,7 +13,7 @@ pub(crate) enum Partner {
     Itself,
 }
 
-/// How boxes are made.
+/// Settings with which boxes are made.
 #[derive(Clone, Copy)]
 pub(crate) struct Refit<'q> {
     pub(crate) executor: Executor<'q>,
@@ -21,7 +21,7 @@ pub(crate) struct Refit<'q> {
     pub(crate) update: Update,
 }
 
-/// A tree, a set of its boxes, and what these are made of.
+/// Tree to be refitted, a set of its boxes, and the source that they are made from.
 pub(crate) struct Refitted<'t, S> {
     pub(crate) tree: &'t Tree,
     pub(crate) boxes: &'t mut BoxSet,

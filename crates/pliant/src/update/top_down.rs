@@ -1,7 +1,7 @@
-//! What a traversal has reached and finds stale.
+//! Top-down refit: the wide nodes that a traversal reached and found stale.
 //!
-//! By default one level: the nodes of the wide nodes that were reached, each from the distinct vertices below it. The paper's
-//! variant makes "a specified number of levels in their sub-trees" bottom-up at once.
+//! By default one level: each node from the distinct vertices below it. The paper's variant makes
+//! "a specified number of levels in their sub-trees" at once, bottom-up.
 
 use super::bottom_up::refit_levels;
 use super::dirty_set::DirtySet;
@@ -12,8 +12,10 @@ use crate::kernels::Coordinate;
 use crate::statistics::Statistics;
 
 impl Refit<'_> {
-    /// Refits wide nodes that a traversal has reached, which are stale, and with each of them
-    /// `levels_at_once - 1` levels below; empties the set. The lists are scratch.
+    /// Refits the reached wide nodes, which are stale, each with `levels_at_once - 1` levels below
+    /// it.
+    ///
+    /// Empties the set. The lists are scratch.
     pub(crate) fn reached<S: Coordinate>(
         &self,
         one: &mut Refitted<S>,
@@ -31,7 +33,7 @@ impl Refit<'_> {
             return;
         }
         for &wide_node in &*listed {
-            // It may have been refitted with one above it.
+            // It may have been refitted with another above it.
             if !one.boxes.is_valid(wide_node) {
                 *boxes += refit_levels(self, one, wide_node, levels, below);
             }

@@ -1,7 +1,8 @@
-//! All boxes of a body that meets itself, in one go, where every leaf is one block.
+//! Refit of all boxes of a body that meets itself in one pass, where every leaf is one block.
 //!
-//! Every leaf meets at least itself, so the boxes of all triangles are made. A leaf's box is then that of its triangles' boxes, which
-//! are still in registers, and they are quantized on the way, in the units of the step before. Corners are read once.
+//! Every leaf meets at least itself, so boxes of all triangles are needed. The box of a leaf is
+//! merged from these while they are in registers. They are quantized on the way, in the units of
+//! the step before. So corners are read once.
 
 use super::leaves::refit_block;
 use super::quantize::{is_near_enough, units_of};
@@ -13,22 +14,24 @@ use crate::kernels::{BoxLanes, Coordinate, QuantizedLanes, Simd, quantize};
 use crate::threads::Grain;
 use crate::tree::{BoxSource, LeavesMut, NodesMut, Tree, of_degree};
 
-/// Where units have changed by more than this factor since the step before, boxes quantized on the way are of no use.
+/// Largest change of units since the step before, as a factor. With more, boxes quantized on the
+/// way are discarded.
 const CHANGED: f32 = 1.25;
 
-/// The triangles in the leaves of a run of wide nodes of leaves: the parts of a set of boxes that
-/// hold theirs, and these quantized.
+/// Maker of the boxes of leaves, of their triangles, and of these quantized, for a run of wide
+/// nodes of leaves.
 struct Triangles<'t> {
     leaves: LeavesMut<'t>,
-    /// From the first leaf of `leaves` on.
+    /// Quantized boxes from the first leaf of `leaves` on.
     quantized: &'t mut [QuantizedLanes],
     stamp: u64,
     units: f32,
     made: usize,
 }
 
-/// Makes all boxes of nodes, and those of all triangles whose leaves are side by side. `wide_nodes` is scratch. Returns how many boxes
-/// of nodes and of triangles it made.
+/// Makes all boxes of nodes, and of all triangles in wide nodes of leaves.
+///
+/// Returns how many boxes of nodes and of triangles it made. `wide_nodes` is scratch.
 pub(super) fn refit_whole<S: Coordinate>(
     refit: &Refit,
     one: &mut Refitted<S>,
@@ -123,7 +126,7 @@ impl<const N: usize> Below<N> for Triangles<'_> {
     }
 }
 
-/// The first leaf of a wide node of leaves.
+/// First leaf of a wide node of leaves.
 #[inline(always)]
 fn first_leaf(tree: &Tree, wide_node: WideNodeId) -> LeafId {
     let first = tree.wide_node(wide_node).first_leaf;

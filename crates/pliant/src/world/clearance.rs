@@ -1,10 +1,11 @@
-//! How far each vertex may go before anything can touch: half the least distance of the pairs that it is a corner of.
+//! Clearance of vertices: half the least distance of all pairs of elements that a vertex is a
+//! corner of.
 //!
-//! Two elements at a distance d meet only if some point of one and some point of the other come together, and no point of an element moves
-//! further than its corners. So where each corner moves less than d / 2 they do not. Triangles begin to intersect where a vertex meets a
-//! triangle or two edges meet (Chen et al. 2025, Offset Geometric Contact, give each vertex such a bound).
-//!
-//! A distance is off by at most 2^-30 of itself: what is given is d / 2 less 2^-29 of it.
+//! Two elements at a distance d meet only if some point of one and some point of the other come
+//! together. No point of an element moves further than its corners; so where each corner moves less
+//! than d / 2, they do not meet. Triangles begin to intersect where a vertex meets a triangle or
+//! two edges meet. Chen et al. 2025, Offset Geometric Contact, give each vertex such a bound. A
+//! distance is off by at most 2^-30 of itself, so clearances are d / 2 less 2^-29 of it.
 
 use super::handle::World;
 use super::scalar::Scalar;
@@ -15,7 +16,7 @@ use crate::threads::Question;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-/// What a distance is rounded down by: 2^-29.
+/// Factor by which a distance is rounded down: 1 - 2^-29.
 const ROUNDED: f64 = 1.0 - f64::from_bits((1023 - 29) << 52);
 
 /// Half a distance, rounded down.
@@ -24,25 +25,30 @@ fn half_of(distance: f64) -> f64 {
     (distance / 2.0 * ROUNDED).next_down().max(0.0)
 }
 
-/// For each body, of each vertex half the least distance so far.
+/// Half the least distance so far, for each vertex of each body.
 type Clearances = BTreeMap<BodyId, Vec<f64>>;
 
-/// How far vertices may go.
+/// # Questions: clearance of vertices
 impl<S: Scalar> World<S> {
-    /// How far each vertex may move before anything can touch: of the selection's bodies one number for each vertex, at most half of
-    /// `cut_off`.
+    /// Computes how far each vertex may move before anything can touch, in the unit of the
+    /// positions.
     ///
-    /// It is half the least distance of the vertices and triangles, and edges and edges, that the vertex is a corner of and that have no
-    /// vertex in common, as [`close_vertex_triangle_pairs`](Self::close_vertex_triangle_pairs) looks at them; rounded down by at most
-    /// 1e-6 of itself and 1e-323, and 0 where something touches. If every vertex moves less than that, in whatever direction, none of these pairs
-    /// touches, on the way or at the end. The pairs that filters or vertex groups keep apart do not count.
+    /// Returns n numbers for each body of the selection, each at most half of `cut_off`. A number
+    /// is half the least distance of the pairs that the vertex is a corner of. They are the pairs
+    /// of a vertex and a triangle, and of two edges, that have no vertex in common, as
+    /// [`close_vertex_triangle_pairs`](Self::close_vertex_triangle_pairs) looks at them. It is
+    /// rounded down by at most 1e-6 of itself and 1e-323, and is 0 where something touches.
     ///
-    /// Cost: that of both queries for close pairs within `cut_off`.
+    /// If every vertex moves less than that, in whatever direction, none of these pairs touches, on
+    /// the way or at the end. Pairs that filters or vertex groups keep apart do not count.
+    ///
+    /// Cost: both queries for close pairs within `cut_off`.
     ///
     /// ```
     /// # use pliant::{Selection, World};
     /// let mut world = World::<f64>::new();
-    /// let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
+    /// let large = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]];
+    /// let floor = world.add(&[[0, 1, 2]], &large)?;
     /// let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.5], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
     /// let clearance = world.clearance(Selection::World, 2.0)?;
     /// assert!(clearance[&leaf][0] <= 0.25 && clearance[&leaf][0] > 0.249_999);
@@ -52,7 +58,7 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// Those of [`Query`](crate::Query).
+    /// The errors of [`Query`](crate::Query).
     pub fn clearance(
         &mut self,
         of: Selection,

@@ -1,4 +1,4 @@
-//! Who may meet whom.
+//! Filters, ignored pairs, vertex groups and loose boxes: who may meet whom.
 
 use super::handle::World;
 use super::scalar::Scalar;
@@ -7,10 +7,12 @@ use crate::error::Error;
 use crate::geometry::Bounds;
 use crate::ids::BodyId;
 
-/// Who may meet whom.
+/// # Settings: who may meet whom
 impl<S: Scalar> World<S> {
-    /// Says which bodies a body meets in queries of the whole world. Two bodies meet if the membership of each has a bit in
-    /// common with the mask of the other. At first both are all ones. A query that names its bodies does not look at them.
+    /// Sets which bodies a body meets in queries of the whole world, by two sets of 32 bits.
+    ///
+    /// Two bodies meet if the membership of each has a bit in common with the mask of the other. At
+    /// first both are all ones. A query that names its bodies does not look at them.
     ///
     /// # Errors
     ///
@@ -23,7 +25,7 @@ impl<S: Scalar> World<S> {
         Ok(())
     }
 
-    /// The membership and the mask of a body, as [`set_filter`](Self::set_filter) says them.
+    /// Membership and mask of a body, as [`set_filter`](Self::set_filter) sets them.
     ///
     /// # Errors
     ///
@@ -32,8 +34,10 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.filter())
     }
 
-    /// From now on two bodies do not meet in queries of the whole world, or a body with itself if it is named twice. A query that
-    /// names its bodies does not look at this.
+    /// Ignores a pair of bodies: from now on they do not meet in queries of the whole world.
+    ///
+    /// A body that is named twice does not meet itself. A query that names its bodies does not look
+    /// at this.
     ///
     /// # Errors
     ///
@@ -46,7 +50,7 @@ impl<S: Scalar> World<S> {
         Ok(())
     }
 
-    /// Takes [`ignore`](Self::ignore) back.
+    /// Lets two bodies meet again after [`ignore`](Self::ignore).
     ///
     /// # Errors
     ///
@@ -59,27 +63,38 @@ impl<S: Scalar> World<S> {
         Ok(())
     }
 
-    /// The pairs of bodies that [`ignore`](Self::ignore) keeps apart, each once, the lower id first; sorted.
+    /// Pairs of bodies that [`ignore`](Self::ignore) keeps apart, each once, the lower id first;
+    /// sorted.
+    ///
+    /// Cost: linear in these pairs.
     pub fn ignored(&self) -> Vec<[BodyId; 2]> {
         self.state().common.bodies.ignored()
     }
 
-    /// Gives every vertex of a body a group, shape (n,): candidates are left out if all their vertices are of one group, in whichever
-    /// bodies they are. Those of group 0, as all are at first, meet all. For vertices that are pinned, or glued together.
+    /// Sets a group for every vertex of a body, shape (n,): elements whose vertices are all in one
+    /// group do not meet.
     ///
-    /// They stay with the body until [`set_mesh`](Self::set_mesh) gives it another mesh. Of the vertices that an [`Edit`](crate::Edit) adds, those that
-    /// are split from another have the group of that, the others group 0; what is given for empty vertices is not looked at.
+    /// Candidates, close pairs and impacts leave such pairs out, in whichever bodies the vertices
+    /// are. Vertices of group 0, as all are at first, meet all. It is for vertices that are pinned,
+    /// or glued together.
+    ///
+    /// Groups stay with the body until [`set_mesh`](Self::set_mesh) gives it another mesh. A vertex
+    /// that an [`Edit`](crate::Edit) splits from another has that one's group; other new vertices
+    /// have group 0. Groups of empty vertices are not looked at.
+    ///
+    /// Cost: O(n).
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`WrongLength`](crate::ErrorKind::WrongLength).
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody),
+    /// [`WrongLength`](crate::ErrorKind::WrongLength).
     #[doc(alias = "can_vertices_collide")]
     pub fn set_vertex_groups(&mut self, body: BodyId, groups: &[u32]) -> Result<(), Error> {
         let found = self.state_mut().common.bodies.get_mut(body)?;
         found.set_groups(groups).map_err(about(body))
     }
 
-    /// The group of every vertex of a body.
+    /// Groups of the vertices of a body, shape (n,). Cost: O(n).
     ///
     /// # Errors
     ///
@@ -88,16 +103,21 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.groups())
     }
 
-    /// Gives a body a box, lower and upper corner, that holds it in every pose to come; `None` takes it away.
+    /// Gives a body a loose box, lower and upper corner, that holds it in every pose to come;
+    /// `None` takes it away.
     ///
-    /// The broad phase then works with this box, which stands still, and looks at the exact box only where loose boxes
-    /// overlap. Until it is taken away, a position outside it is refused. Worth it for many bodies that move on their spot.
+    /// The broad phase then works with this box, which stands still, and looks at the exact box
+    /// only where loose boxes overlap. Until it is taken away, a position outside it is refused. It
+    /// pays for many bodies that move on their spot.
+    ///
+    /// Cost: O(n).
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`BadLooseBox`](crate::ErrorKind::BadLooseBox) if a corner is not finite, is
-    /// above `f32::MAX` in magnitude, or the lower one is above the upper one on some axis, and
-    /// [`OutsideLooseBox`](crate::ErrorKind::OutsideLooseBox) if the body is not inside now.
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody). [`BadLooseBox`](crate::ErrorKind::BadLooseBox)
+    /// if a corner is not finite or above `f32::MAX` in magnitude, or the lower one is above the
+    /// upper one on some axis. [`OutsideLooseBox`](crate::ErrorKind::OutsideLooseBox) if the body
+    /// is not inside now.
     pub fn set_loose_box(
         &mut self,
         body: BodyId,
@@ -110,7 +130,8 @@ impl<S: Scalar> World<S> {
         Ok(())
     }
 
-    /// The lower and the upper corner of the box that [`set_loose_box`](Self::set_loose_box) gave to a body; `None` if it has none.
+    /// Lower and upper corner of a body's loose box, from [`set_loose_box`](Self::set_loose_box);
+    /// `None` if it has none.
     ///
     /// # Errors
     ///

@@ -1,9 +1,10 @@
-//! A step that is free of contact, and what its time alone does not say: whether it begins in contact, and whether anything moves.
+//! Steps free of contact, with two facts that the time alone does not tell: contact at the start,
+//! and whether anything moves.
 //!
-//! What is in contact at the start is asked of the shape of now, the worse first. Where triangles
-//! intersect, an edge may be through a triangle and near no vertex and no other edge, and each way out
-//! of that is a contact of the step. Elements that are within the distance are not kept from coming
-//! nearer; where they touch, not from going through each other.
+//! Contact at the start is a question about the present shape, the worse kind first. Where
+//! triangles intersect, an edge may go through a triangle and be near no vertex and no other edge.
+//! Each way out of that is then a contact of the step. Elements that are within the distance are
+//! not kept from coming nearer. Elements that touch are not kept from going through each other.
 
 use super::handle::World;
 use super::query::Query;
@@ -16,63 +17,72 @@ use crate::threads::Question;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-/// How far everything may go, and how that begins: what [`World::free_step`] gives.
+/// Answer of [`World::free_step`]: how far everything may go, and how that begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeStep {
-    /// A time from 0 to 1, to call [`advance_motion`](World::advance_motion) with: that of
-    /// [`collision_free_step`](World::collision_free_step).
+    /// Time from 0 to 1, to call [`advance_motion`](World::advance_motion) with, as
+    /// [`collision_free_step`](World::collision_free_step) gives it.
     pub t: f64,
-    /// Two that are in contact at the start already, so that `t` does not promise for them what it
-    /// promises for all others; none if everything begins apart. Of several the first: triangles that
-    /// intersect, then vertices and triangles, then edges; of one kind the first in the order of lists.
+    /// First pair that is in contact at the start already; `None` if everything begins apart.
+    ///
+    /// For such pairs `t` does not promise what it promises for all others. Triangles that
+    /// intersect come first, then vertices and triangles, then edges; within a kind the order is
+    /// the order of lists.
     pub begins_in_contact: Option<InContact>,
-    /// Whether a body that was asked about has a motion, be it nowhere. If none has, `t` is 1.
+    /// Whether any body of the selection has a motion, be it nowhere. If none has, `t` is 1.
     pub moves: bool,
 }
 
-/// Two that are in contact where a step begins: in the shape of now, decided exactly.
+/// Pair that is in contact where a step begins: in the present shape, decided exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum InContact {
-    /// Triangles that intersect, be it that they touch.
+    /// Triangles that intersect, be it that they only touch.
     Triangles(Pair),
-    /// No triangles intersect, but a vertex is at most the distance from a triangle.
+    /// A vertex at most the distance from a triangle, where no triangles intersect.
     VertexTriangle(VertexTriangle),
-    /// Nor that, but two edges are at most the distance apart.
+    /// Two edges at most the distance apart, where no triangles intersect and no vertex is so near
+    /// a triangle.
     EdgeEdge(EdgeEdge),
 }
 
+/// # Motions: steps free of contact
 impl<S: Scalar> World<S> {
-    /// How far everything may go on its way to the end of a motion and stay further apart than
-    /// `min_distance`, a time t from 0 to 1 to call [`advance_motion`](Self::advance_motion) with;
-    /// and what that number does not say. `t` is what [`collision_free_step`](Self::collision_free_step)
-    /// gives, and promises what that does.
+    /// Computes how far everything may go and stay further apart than `min_distance`, and how that
+    /// begins.
     ///
-    /// It promises nothing for what is in contact at the start. Surfaces that are through each other
-    /// meet on every way out, so `t` may be small for no other reason. Elements that touch may go through
-    /// each other; those that are nearer than `min_distance` are kept from touching, not from coming
-    /// nearer. [`begins_in_contact`](FreeStep::begins_in_contact) names the first such pair:
+    /// The distance is in the unit of the positions. The time `t`, from 0 to 1, is to call
+    /// [`advance_motion`](Self::advance_motion) with. It is what
+    /// [`collision_free_step`](Self::collision_free_step) gives, and promises the same. Without any
+    /// motion it is 1, and [`moves`](FreeStep::moves) is false.
     ///
-    /// - triangles that intersect in the shape of now, of those that
-    ///   [`intersections`](Self::intersections) looks at, unless all six vertices are of one
-    ///   [group](Self::set_vertex_groups);
-    /// - if there are none, elements at most `min_distance` apart, of those that
+    /// Nothing is promised for what is in contact at the start. Surfaces that are through each
+    /// other meet on every way out, so `t` may be small for no other reason. Elements that touch
+    /// may go through each other. Elements nearer than `min_distance` are kept from touching, not
+    /// from coming nearer.
+    ///
+    /// [`begins_in_contact`](FreeStep::begins_in_contact) names the first such pair:
+    ///
+    /// - triangles that intersect in the present shape, as [`intersections`](Self::intersections)
+    ///   finds them, unless all six vertices are in one [group](Self::set_vertex_groups);
+    /// - if there are none, elements at most `min_distance` apart. With a `min_distance` of 0 they
+    ///   touch. They are of the pairs that
     ///   [`vertex_triangle_impacts`](Self::vertex_triangle_impacts) and
-    ///   [`edge_edge_impacts`](Self::edge_edge_impacts) look at; with a `min_distance` of 0, that touch.
+    ///   [`edge_edge_impacts`](Self::edge_edge_impacts) look at.
     ///
-    /// Both are decided exactly, and touching counts. So a world in which no pair is named, and which is
-    /// advanced by such steps alone, never has one, unless groups of vertices let it. What is not found
-    /// are triangles that share a vertex of the mesh and are through each other beyond it.
+    /// Both are decided exactly, and touching counts. So a world in which no pair is named never
+    /// has one while such steps alone advance it, unless vertex groups let it. Triangles that share
+    /// a vertex of the mesh and are through each other beyond it are not found.
     ///
-    /// A mesh with edges shorter than `min_distance` is always that near to itself: see whether it is
-    /// [`InContact::Triangles`], or ask with a smaller one. Elements further apart than `min_distance` by
-    /// a thousandth of it or less are in no contact, but may stop the step at 0.
-    ///
-    /// Without any motion there is nowhere to go, and `t` is 1: [`moves`](FreeStep::moves) is false then.
+    /// A mesh with edges shorter than `min_distance` is always that near to itself. Then see
+    /// whether the pair is [`InContact::Triangles`], or ask with a smaller distance. Elements
+    /// further apart than `min_distance` by a thousandth of it or less are in no contact, but may
+    /// stop the step at 0.
     ///
     /// ```
     /// # use pliant::{Selection, World};
     /// # let mut world = World::<f64>::new();
-    /// # let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
+    /// # let large = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]];
+    /// # let floor = world.add(&[[0, 1, 2]], &large)?;
     /// # let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 2.0], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
     /// world.set_motion(leaf, &[[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
     /// let step = world.free_step(Selection::Everything, 0.0)?;
@@ -84,13 +94,13 @@ impl<S: Scalar> World<S> {
     /// # Ok::<(), pliant::Error>(())
     /// ```
     ///
-    /// Cost: that of [`collision_free_step`](Self::collision_free_step), of both queries for close pairs
-    /// within `min_distance`, and of the first intersection. [`statistics`](Self::statistics) are those
-    /// of the first alone.
+    /// Cost: [`collision_free_step`](Self::collision_free_step), both queries for close pairs
+    /// within `min_distance`, and the first intersection. [`statistics`](Self::statistics) count
+    /// the first of these alone.
     ///
     /// # Errors
     ///
-    /// Those of [`Query`].
+    /// The errors of [`Query`].
     pub fn free_step(&mut self, of: Selection, min_distance: f64) -> Result<FreeStep, Error> {
         self.find_free_step(of, min_distance, None)
     }
@@ -103,7 +113,7 @@ impl<S: Scalar> World<S> {
         question: Option<Question>,
     ) -> Result<FreeStep, Error> {
         let begins_in_contact = self.first_in_contact(of, min_distance, question)?;
-        // Last, so that statistics are those of the step.
+        // The step comes last, so that statistics are about it.
         let t = self.verbs.collision_free_step(of, min_distance, question)?;
         let bodies = self.bodies_of(of).into_iter();
         let mut are_moving = bodies.map(|body| Ok(self.state().body(body)?.is_moving()));
@@ -121,7 +131,7 @@ impl<S: Scalar> World<S> {
         distance: f64,
         question: Option<Question>,
     ) -> Result<Option<InContact>, Error> {
-        // Mostly there is none, and nothing need be known of groups.
+        // Mostly there is none; then groups need not be looked up.
         if self
             .intersections(of)
             .interrupt(question)
@@ -140,7 +150,7 @@ impl<S: Scalar> World<S> {
         Ok(pair.map(InContact::EdgeEdge))
     }
 
-    /// The first two triangles that intersect and whose vertices are not all of one group.
+    /// Finds the first two triangles that intersect and whose vertices are not all of one group.
     fn first_intersection(
         &mut self,
         of: Selection,
@@ -167,7 +177,7 @@ impl<S: Scalar> World<S> {
     }
 }
 
-/// The least of what some hits are, without a list of all.
+/// Finds the least of the values that `pair` makes of hits, without a list of all.
 fn least<H: Copy, P: Ord>(
     query: Query<'_, H>,
     pair: impl Fn(&H) -> Option<P>,

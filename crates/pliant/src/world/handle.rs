@@ -1,4 +1,4 @@
-//! The world as users hold it: a state behind what is compiled once.
+//! The handle that users hold: a boxed state behind a trait that is compiled once.
 
 use super::scalar::Scalar;
 use super::state::State;
@@ -8,21 +8,44 @@ use crate::threads::Threads;
 use std::fmt;
 use std::sync::Arc;
 
-/// Bodies that change their shape, and the questions which of their triangles intersect, which of
-/// their vertices, edges and triangles are near each other, and which meet on their way.
+/// World of bodies that change their shape, and the place where all questions are asked.
 ///
-/// `S` is the type of the coordinates, `f32` or `f64`. Moving a body is [`set_positions`](Self::set_positions); there is
-/// nothing else to call: every query brings up to date what it touches, and none can answer for old positions.
+/// Questions are: which triangles intersect, which vertices, edges and triangles are near each
+/// other, and which of them meet on their way.
 ///
-/// A call that is refused returns an [`Error`](crate::Error) and leaves the world as it was.
+/// `S` is the type of the coordinates, `f32` or `f64`. Every length is in the unit of the
+/// positions. In shapes of arrays, n counts the vertices of a body and m its triangles. A call for
+/// which no cost is said takes O(log b) for b bodies.
+///
+/// Moving a body is [`set_positions`](Self::set_positions), and there is nothing else to call.
+/// Every query brings up to date what it touches, and none can answer for old positions. A call
+/// that is refused returns an [`Error`](crate::Error) and leaves the world as it was.
+///
+/// Methods are listed in the order in which one meets them:
+///
+/// - **New**: [`new`](Self::new), [`with_options`](Self::with_options),
+///   [`with_pool`](Self::with_pool);
+/// - **Bodies**: [`add`](Self::add), [`set_positions`](Self::set_positions),
+///   [`remove`](Self::remove);
+/// - **Questions**, from [`intersections`](Self::intersections) to [`clearance`](Self::clearance);
+/// - **Motions**: [`set_motion`](Self::set_motion), [`advance_motion`](Self::advance_motion),
+///   [`free_step`](Self::free_step);
+/// - **Change**: [`edit`](Self::edit), [`apply`](Self::apply), [`set_mesh`](Self::set_mesh),
+///   [`split`](Self::split), [`fuse`](Self::fuse), [`weld`](Self::weld);
+/// - **Settings**: [`set_filter`](Self::set_filter), [`ignore`](Self::ignore),
+///   [`set_vertex_groups`](Self::set_vertex_groups), [`set_loose_box`](Self::set_loose_box);
+/// - **Looking inside**: [`triangles`](Self::triangles), [`positions`](Self::positions),
+///   [`tree_boxes`](Self::tree_boxes), [`statistics`](Self::statistics).
 pub struct World<S: Scalar> {
     pub(super) verbs: Box<dyn Verbs<S>>,
 }
 
-/// Bodies, shapes, trees, filters, ignored pairs, loose boxes and options; ids stay, and those of removed bodies are not used again.
-/// Boxes are made anew, and counters begin at zero. A pool that was lent is shared, other threads are made anew.
+/// Copies bodies, shapes, trees, filters, ignored pairs, loose boxes and options.
 ///
-/// Cost: O(n), no tree is built.
+/// Ids stay, and ids of removed bodies are not used again. Boxes are made anew, and counters begin
+/// at zero. A pool that was lent is shared; threads of the world's own are made anew.
+///
+/// Cost: O(n + m) for all bodies; no tree is built.
 ///
 /// ```
 /// let mut world = pliant::World::<f32>::new();
@@ -40,14 +63,16 @@ impl<S: Scalar> Clone for World<S> {
     }
 }
 
-/// A new world.
+/// # New: an empty world
 impl<S: Scalar> World<S> {
-    /// An empty world with the options that measured best.
+    /// Makes an empty world with the default options, which measured best.
     pub fn new() -> Self {
         Self::with_options(Options::default())
     }
 
-    /// An empty world, with threads of its own if [`Options::threads`] asks for more than one.
+    /// Makes an empty world with these options.
+    ///
+    /// It starts threads of its own if [`Options::threads`] asks for more than one.
     pub fn with_options(options: Options) -> Self {
         let threads = Threads::private(options.threads);
         Self {
@@ -55,11 +80,15 @@ impl<S: Scalar> World<S> {
         }
     }
 
-    /// An empty world whose queries are shared with the threads of a pool that the application has anyway, so that no others are
-    /// made: the calling thread and as many of the pool's as make [`Options::threads`] together.
+    /// Makes an empty world whose queries share the threads of a rayon pool that the application
+    /// has anyway.
     ///
-    /// Queries may be asked from any thread, those of the pool included. As with everything that waits inside of a rayon pool, such a
-    /// thread may begin other work of the pool while it waits for the end of a query.
+    /// No other threads are made. The calling thread and some of the pool's make
+    /// [`Options::threads`] together.
+    ///
+    /// Queries may be asked from any thread, also from a thread of the pool. As with everything
+    /// that waits inside a rayon pool, such a thread may begin other work of the pool while it
+    /// waits.
     ///
     /// ```
     /// use pliant::{Options, World};
@@ -80,12 +109,12 @@ impl<S: Scalar> World<S> {
         }
     }
 
-    /// The options of this world.
+    /// Options that this world was made with.
     pub fn options(&self) -> &Options {
         &self.state().common.options
     }
 
-    /// What is in it.
+    /// The state behind the trait.
     pub(super) fn state(&self) -> &State<S> {
         self.verbs.state()
     }

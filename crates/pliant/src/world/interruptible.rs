@@ -1,4 +1,4 @@
-//! Questions with one answer, and what else takes long, that may be ended early.
+//! Interruption of questions with one answer, and of other calls that take long.
 
 use super::free_step::FreeStep;
 use super::handle::World;
@@ -12,29 +12,34 @@ use crate::threads::Question;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// A world, for a question that is ended early when another says so: what
-/// [`World::interruptible`](crate::World::interruptible) gives.
+/// World whose next call ends early when a question says so, from
+/// [`World::interruptible`](crate::World::interruptible).
 ///
 /// # Errors
 ///
-/// Those that the methods of [`World`](crate::World) say, and [`Interrupted`](crate::ErrorKind::Interrupted). The world stays usable.
+/// The errors that the methods of [`World`](crate::World) say, and
+/// [`Interrupted`](crate::ErrorKind::Interrupted). The world stays usable.
 #[must_use = "nothing is asked yet"]
 pub struct Interruptible<'w, S: Scalar> {
     pub(super) world: &'w mut World<S>,
     pub(super) question: Question<'w>,
 }
 
-/// What may be ended early.
+/// # Questions: ended early
 impl<S: Scalar> World<S> {
-    /// This world, for a question with one answer that is to end early, with an error, when `question` says so. What
-    /// [`Query::interrupt_if`](crate::Query::interrupt_if) says of queries holds of these.
+    /// Returns this world for one call that is to end early, with an error, when `question` says
+    /// so.
+    ///
+    /// How often it is asked is said at [`Query::interrupt_if`](crate::Query::interrupt_if), which
+    /// is for queries.
     ///
     /// ```
     /// # use pliant::{ErrorKind, World};
     /// use std::time::{Duration, Instant};
     ///
     /// # let mut world = World::<f32>::new();
-    /// # let [robot, wall] = [0.0, 1.0].map(|z| world.add(&[[0, 1, 2]], &[[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]]).unwrap());
+    /// # let at = |z| [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]];
+    /// # let [robot, wall] = [0.0, 1.0].map(|z| world.add(&[[0, 1, 2]], &at(z)).unwrap());
     /// let end = Instant::now() + Duration::from_secs(1);
     /// let is_late = || Instant::now() > end;
     /// let nearest = world.interruptible(&is_late).distance(robot, wall, 9.0)?;
@@ -121,7 +126,8 @@ impl<S: Scalar> Interruptible<'_, S> {
         self.world.find_clearance(of, cut_off, Some(self.question))
     }
 
-    /// [`World::weld`](crate::World::weld), until it is known what is welded; nothing has changed if it is ended.
+    /// [`World::weld`](crate::World::weld), until it is known which vertices are welded. If it is
+    /// ended, nothing has changed.
     ///
     /// # Errors
     ///

@@ -1,13 +1,13 @@
-//! Buffers of every kind of query, kept from query to query, and the hits that a world answers for: from the registry.
+//! Buffers of every kind of query, kept from query to query, as the registry of kinds lists them.
 
 use crate::collide::Ask;
 use crate::held::Held;
 use crate::kernels::Coordinate;
 
-/// Makes what the library has for every kind, of the lines of `every_kind`.
+/// Makes, from the lines of `every_kind`, all that the library has for every kind.
 macro_rules! keep {
     ($($name:ident: $kept:ty => $($hit:ty: $method:ident($of:ident $(, $length:ident)?)),+;)*) => {
-        /// What is kept for each kind of query.
+        /// Buffers that are kept for each kind of query.
         pub(crate) struct Kinds<S: Coordinate> {
             $(pub(super) $name: $kept,)*
         }
@@ -26,7 +26,7 @@ macro_rules! keep {
             }
         }
 
-        /// Answers queries of every kind.
+        /// A state that answers queries of every kind.
         pub(crate) trait AskAll: $($(Ask<$hit> +)+)* Send + Sync {}
 
         impl<T: $($(Ask<$hit> +)+)* Send + Sync> AskAll for T {}

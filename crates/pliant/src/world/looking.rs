@@ -1,4 +1,4 @@
-//! What a body is, what its tree looks like, and what the last query did.
+//! Inspection: meshes and shapes of bodies, how their trees look, and the work of the last query.
 
 use super::handle::World;
 use super::scalar::Scalar;
@@ -8,10 +8,11 @@ use crate::error::Error;
 use crate::ids::BodyId;
 use crate::statistics::Statistics;
 
-/// What a body is, what its tree looks like, and what the last query did.
+/// # Looking inside: meshes, trees, work
 impl<S: Scalar> World<S> {
-    /// The triangles of a body as they were added and edited, shape (m, 3): three times [`u32::MAX`] for a number that an [`Edit`](crate::Edit) has left
-    /// empty.
+    /// Triangles of a body as they were added and edited, shape (m, 3).
+    ///
+    /// A number that an [`Edit`](crate::Edit) has left empty is [`u32::MAX`] three times.
     ///
     /// # Errors
     ///
@@ -20,13 +21,16 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.mesh().triangles())
     }
 
-    /// The edges of a body, shape (k, 2): two vertices each, the smaller first. Every edge once, whatever triangles share it. The number of
-    /// an edge is its place here. A degenerate triangle has the edges whose two ends differ.
+    /// Edges of a body, shape (k, 2): two vertices each, the smaller first; each edge once.
     ///
-    /// They are sorted when they are first asked for, here or by a query for edges. From then on an edge keeps its number while there is a
-    /// triangle that has it, however the mesh is edited: a number whose edge is gone is empty, two times [`u32::MAX`], until an edge that
-    /// comes takes it, the lowest first; then come new numbers, in the order of the triangles that were changed.
-    /// [`set_mesh`](Self::set_mesh) keeps numbers where it edits.
+    /// The number of an edge is its place here. A degenerate triangle has the edges whose two ends
+    /// differ.
+    ///
+    /// They are sorted when they are first asked for, here or by a query for edges. From then on an
+    /// edge keeps its number while any triangle has it, however the mesh is edited. The number of
+    /// an edge that is gone is empty, [`u32::MAX`] two times, until a new edge takes it. New edges
+    /// take the lowest empty numbers first, then new ones, in the order of the triangles that were
+    /// changed. [`set_mesh`](Self::set_mesh) keeps numbers where it edits.
     ///
     /// Cost: O(m) the first time, and after [`rebuild`](Self::rebuild).
     ///
@@ -37,7 +41,9 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.mesh().edges())
     }
 
-    /// The shape that a body has now: the positions that it was given last; NaN for vertices that an [`Edit`](crate::Edit) has left empty.
+    /// Positions of a body as they were given last, shape (n, 3).
+    ///
+    /// Vertices that an [`Edit`](crate::Edit) has left empty are at NaN. Cost: O(n), a copy.
     ///
     /// # Errors
     ///
@@ -46,7 +52,8 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.positions().into_owned())
     }
 
-    /// How many triangles a body has: of numbers, those left empty by an [`Edit`](crate::Edit) counted with the others.
+    /// Count of triangle numbers of a body, m; numbers that an [`Edit`](crate::Edit) left empty
+    /// count.
     ///
     /// # Errors
     ///
@@ -55,7 +62,8 @@ impl<S: Scalar> World<S> {
         Ok(self.triangles(body)?.len())
     }
 
-    /// How many vertices a body has, counted by number like triangles: the length that its positions must have.
+    /// Count of vertex numbers of a body, n, which is the length that its positions must have;
+    /// empty numbers count.
     ///
     /// # Errors
     ///
@@ -64,12 +72,14 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.mesh().vertex_count())
     }
 
-    /// The order in which queries read the vertices of a body, as the caller numbers them: at place i of memory is vertex
-    /// `order[i]`. Shape (n,).
+    /// Order in which queries read the vertices of a body, shape (n,): place i of memory has vertex
+    /// `order[i]`.
     ///
-    /// Queries are faster on a body whose vertices come in this order already, the more so the larger it is. A simulation that
-    /// can choose stores them so: vertex i of the new body is vertex `order[i]` of the old one, and triangles name the new
-    /// numbers. The tree of the new body is the same, and its order is 0, 1, 2, ...
+    /// Vertices are numbered as the caller numbers them. Queries are faster on a body whose
+    /// vertices come in this order already, the more so the larger it is. A simulation that can
+    /// choose stores them so. Vertex i of the new body is then vertex `order[i]` of the old one,
+    /// and triangles name the new numbers. The tree of the new body is the same, and its order is
+    /// 0, 1, 2, ...
     ///
     /// # Errors
     ///
@@ -80,7 +90,8 @@ impl<S: Scalar> World<S> {
     ///
     /// let mut world = World::<f32>::new();
     /// let mut triangles = vec![[9, 1, 2], [2, 1, 3], [4, 8, 6]];
-    /// let positions: Vec<[f32; 3]> = (0..10).map(|i| [i as f32, (i * i % 7) as f32, 0.0]).collect();
+    /// let position = |i: u8| [f32::from(i), f32::from(i * i % 7), 0.0];
+    /// let positions: Vec<[f32; 3]> = (0..10).map(position).collect();
     /// let body = world.add(&triangles, &positions)?;
     ///
     /// let order = world.vertex_order(body)?.to_vec();
@@ -100,7 +111,7 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.mesh().vertex_order())
     }
 
-    /// The tree of a body in numbers.
+    /// Shape of a body's tree: its depth, and how many nodes and leaves it has. Cost: at most O(m).
     ///
     /// # Errors
     ///
@@ -109,11 +120,16 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.tree_shape())
     }
 
-    /// For each triangle of a body, the part it is in when the tree is cut at a level: its node of that level, or its leaf, if
-    /// that is above. Parts are numbered from 0 in the order of the tree, so that parts with close numbers are close in the
-    /// tree. Level 0 is one part, level 1 the children of the root, [`TreeShape::depth`] and all
-    /// levels below it the leaves. What an [`Edit`](crate::Edit) adds is in trees of its own, each of which is cut at the level, in parts behind the
-    /// others. A number that is left empty is in part [`u32::MAX`].
+    /// Cuts a body's tree at a level: for each triangle the part it is in, shape (m,).
+    ///
+    /// A part is a node of that level, or a leaf above it. Level 0 is one part, level 1 the
+    /// children of the root. [`TreeShape::depth`] and all levels below it are the leaves. Parts are
+    /// numbered from 0 in the order of the tree, so parts with close numbers are close in the tree.
+    ///
+    /// Triangles that an [`Edit`](crate::Edit) adds are in trees of their own. Each is cut at the
+    /// level, in parts behind the others. A number that is left empty is in part [`u32::MAX`].
+    ///
+    /// Cost: O(m).
     ///
     /// # Errors
     ///
@@ -136,12 +152,15 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.tree_cut(level))
     }
 
-    /// The boxes of a level of a body's tree, and which of them the tree holds for the shape that the body has now: figure 2
-    /// of the paper. One box a part, in the order of [`tree_cut`](Self::tree_cut): a leaf above the level stands for
-    /// itself.
+    /// Boxes of a level of a body's tree, and which of them the tree holds for the present shape:
+    /// figure 2 of the paper.
     ///
-    /// The corners are those of the triangles; the tree's own boxes, in single precision, are the same or a rounding
-    /// larger. Makes no box, and reads none.
+    /// There is one box a part, in the order of [`tree_cut`](Self::tree_cut): a leaf above the
+    /// level stands for itself. The boxes are exactly the triangles' own. The tree's boxes, in
+    /// single precision, are equal or a rounding larger. The call makes no box of the tree, and
+    /// reads none.
+    ///
+    /// Cost: O(m).
     ///
     /// # Errors
     ///
@@ -162,13 +181,19 @@ impl<S: Scalar> World<S> {
         self.verbs.tree_boxes(body, level)
     }
 
-    /// What the last query did, with what [`Query::prepare`](crate::Query::prepare) did before it.
+    /// Counters of the last query, with what [`Query::prepare`](crate::Query::prepare) did before
+    /// it.
     pub fn statistics(&self) -> &Statistics {
         &self.state().common.statistics
     }
 
-    /// How many bytes of memory this world holds: bodies, trees, boxes, and the lists that queries keep for the next ones, with all
-    /// that they have room for. Threads, and what a query that is under way takes besides, are not counted.
+    /// Memory that this world holds, in bytes: bodies, trees, boxes, and lists that queries keep
+    /// for the next ones.
+    ///
+    /// Capacity counts, used or not. Threads do not count, nor does the memory that a running query
+    /// takes besides.
+    ///
+    /// Cost: O(b) for b bodies.
     ///
     /// ```
     /// let mut world = pliant::World::<f32>::new();
@@ -182,11 +207,14 @@ impl<S: Scalar> World<S> {
         self.verbs.memory_usage()
     }
 
-    /// Checks every invariant of every tree: the structure, that each box that claims to be valid is the box of the vertices below it
-    /// as they are now, and that the nodes of mesh connectivity trees are connected pieces or whole components. For tests and bug
-    /// reports; no sequence of calls should ever make it fail.
+    /// Checks every invariant of every tree, for tests and bug reports; no sequence of calls should
+    /// ever make it fail.
     ///
-    /// Cost: every triangle once a level.
+    /// - The structure of the tree is right.
+    /// - Each box that claims to be valid is the box of the vertices below it as they are now.
+    /// - Nodes of mesh connectivity trees are connected pieces or whole components.
+    ///
+    /// Cost: O(m) a level of the tree.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! Meshes that change.
+//! Edits of meshes, and trees that are built anew.
 
 use super::handle::World;
 use super::scalar::Scalar;
@@ -7,15 +7,21 @@ use crate::edit::Edited;
 use crate::error::Error;
 use crate::ids::BodyId;
 
-/// Meshes that change.
+/// # Change: edits of meshes
 impl<S: Scalar> World<S> {
-    /// Gives a body another mesh and its shape, shapes (m, 3) and (n, 3), of any size. Id, filter, ignored pairs and loose box stay;
-    /// triangles and vertices are numbered as these are, and none is empty. A mesh that is not that which the body has ends a motion, and
-    /// takes the vertices their groups.
+    /// Gives a body another mesh and its shape: triangles, shape (m, 3), and positions, shape (n,
+    /// 3), of any size.
     ///
-    /// What is equal by number stays, what differs is edited. So this costs a comparison of all triangles, which is as quick as
-    /// [`set_positions`](Self::set_positions), and what [`apply`](Self::apply) costs for those that differ. Where they are more than an
-    /// eighth, or vertices fewer than before, all is made anew, which costs as much as [`add`](Self::add): edges have other numbers then.
+    /// Id, filter, ignored pairs and loose box stay. Triangles and vertices are numbered as these
+    /// are, and none is empty. If the mesh differs from the body's, its motion ends and its vertex
+    /// groups are 0.
+    ///
+    /// Parts that are equal by number stay, and parts that differ are edited.
+    ///
+    /// Cost: O(m) to compare all triangles, as quick as [`set_positions`](Self::set_positions), and
+    /// [`apply`](Self::apply) for the triangles that differ. If more than an eighth differ, or
+    /// there are fewer vertices than before, all is made anew as by [`add`](Self::add). Edges then
+    /// have other numbers.
     ///
     /// ```
     /// use pliant::{Selection, World};
@@ -32,8 +38,9 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), those of [`add`](Self::add), and
-    /// [`OutsideLooseBox`](crate::ErrorKind::OutsideLooseBox); the body keeps its mesh and its shape.
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody),
+    /// [`OutsideLooseBox`](crate::ErrorKind::OutsideLooseBox), and the errors of
+    /// [`add`](Self::add). The body then keeps its mesh and its shape.
     pub fn set_mesh(
         &mut self,
         body: BodyId,
@@ -43,7 +50,10 @@ impl<S: Scalar> World<S> {
         self.verbs.set_mesh(body, triangles, positions)
     }
 
-    /// Begins an edit of a body's mesh: changes that [`apply`](Self::apply) makes all at once, or not at all. See [`Edit`].
+    /// Begins an edit of a body's mesh, for [`apply`](Self::apply) to make all at once or not at
+    /// all.
+    ///
+    /// [`Edit`] says which steps there are.
     ///
     /// # Errors
     ///
@@ -58,30 +68,40 @@ impl<S: Scalar> World<S> {
             .begin_edit(self.state().number))
     }
 
-    /// Makes the changes of an edit, and says by number what has changed. Triangles and vertices that it does not name keep their numbers,
-    /// edges their numbers if they stay: see [`edges`](Self::edges).
+    /// Applies an edit, all at once or not at all, and says by number what has changed.
     ///
-    /// A number that is left empty is [`u32::MAX`] three times in [`triangles`](Self::triangles), and nothing in any answer. Positions keep
-    /// one row for every number; rows of empty vertices are not looked at when they are set, and NaN when they are asked for. Filter,
-    /// ignored pairs and loose box stay; a new vertex has group 0, or that of the vertex that it was split from; a motion ends if anything
-    /// changes.
+    /// Triangles and vertices that it does not name keep their numbers. Edges that stay keep
+    /// theirs: see [`edges`](Self::edges). A triangle number that is left empty is [`u32::MAX`]
+    /// three times in [`triangles`](Self::triangles), and in no answer. Positions keep one row for
+    /// every number. Rows of empty vertices are not looked at when they are set, and are NaN when
+    /// they are asked for.
     ///
-    /// Cost: by what the edit names, and the triangles at the vertices of that, whatever the size of the mesh; but O(m) for the first edit
-    /// of a body, and when a sixteenth of the triangles were changed since, for the tree is then built anew.
+    /// Filter, ignored pairs and loose box stay. A new vertex has group 0, or the group of the
+    /// vertex that it was split from. A motion ends if anything changes.
+    ///
+    /// Cost: it grows with what the edit names and the triangles at its vertices, whatever the size
+    /// of the mesh. The first edit of a body is O(m). When a sixteenth of the triangles were
+    /// changed since, the tree is built anew.
     ///
     /// # Errors
     ///
-    /// [`OutdatedEdit`](crate::ErrorKind::OutdatedEdit) if the mesh was changed since the edit was begun, or another
-    /// world began it; [`NoTriangles`](crate::ErrorKind::NoTriangles) if none would be left;
-    /// [`NoSuchTriangle`](crate::ErrorKind::NoSuchTriangle), [`EmptyTriangle`](crate::ErrorKind::EmptyTriangle),
-    /// [`NoSuchVertex`](crate::ErrorKind::NoSuchVertex), [`EmptyVertex`](crate::ErrorKind::EmptyVertex),
-    /// [`VertexOutOfRange`](crate::ErrorKind::VertexOutOfRange), [`VertexInUse`](crate::ErrorKind::VertexInUse),
-    /// [`NotACorner`](crate::ErrorKind::NotACorner), and for new positions those of [`set_positions`](Self::set_positions).
+    /// - [`OutdatedEdit`](crate::ErrorKind::OutdatedEdit) if the mesh was changed since the edit
+    ///   was begun, or another world began it;
+    /// - [`NoTriangles`](crate::ErrorKind::NoTriangles) if none would be left;
+    /// - [`NoSuchTriangle`](crate::ErrorKind::NoSuchTriangle),
+    ///   [`EmptyTriangle`](crate::ErrorKind::EmptyTriangle),
+    ///   [`NoSuchVertex`](crate::ErrorKind::NoSuchVertex),
+    ///   [`EmptyVertex`](crate::ErrorKind::EmptyVertex),
+    ///   [`VertexOutOfRange`](crate::ErrorKind::VertexOutOfRange),
+    ///   [`VertexInUse`](crate::ErrorKind::VertexInUse),
+    ///   [`NotACorner`](crate::ErrorKind::NotACorner);
+    /// - for new positions, the errors of [`set_positions`](Self::set_positions).
     pub fn apply(&mut self, edit: &Edit<S>) -> Result<Edited, Error> {
         self.verbs.apply(edit)
     }
 
-    /// For each number whether it is that of a triangle, shape (m,): false where an edit has left it empty.
+    /// Flags of triangle numbers, shape (m,): false where an edit has left a number empty. Cost:
+    /// O(m).
     ///
     /// # Errors
     ///
@@ -90,7 +110,8 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.mesh().live_triangles())
     }
 
-    /// For each number whether it is that of a vertex, shape (n,): false where an edit has left it empty.
+    /// Flags of vertex numbers, shape (n,): false where an edit has left a number empty. Cost:
+    /// O(n).
     ///
     /// # Errors
     ///
@@ -99,8 +120,11 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.mesh().live_vertices())
     }
 
-    /// Counts the meshes of a body, and the orders that its trees bring them into: whoever keeps what [`vertex_order`](Self::vertex_order),
-    /// [`edges`](Self::edges) or [`triangles`](Self::triangles) says asks for them again when this is another.
+    /// Revision of a body's mesh: another number after each change of the mesh or of its tree's
+    /// order.
+    ///
+    /// Callers that keep [`vertex_order`](Self::vertex_order), [`edges`](Self::edges) or
+    /// [`triangles`](Self::triangles) ask for them again when it is another.
     ///
     /// # Errors
     ///
@@ -109,8 +133,12 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.mesh().order_version())
     }
 
-    /// Builds the tree of a body anew, on the shape it has now. Id, filters and loose box stay. Worth it when a shape has
-    /// become very different from the one it was built on; never needed for right answers.
+    /// Builds the tree of a body anew, on its present shape. Id, filters and loose box stay.
+    ///
+    /// It pays when a shape has become very different from the one that the tree was built on.
+    /// Right answers never need it.
+    ///
+    /// Cost: as in [`add`](Self::add).
     ///
     /// # Errors
     ///
@@ -119,13 +147,18 @@ impl<S: Scalar> World<S> {
         self.verbs.rebuild(body)
     }
 
-    /// How much more the tree of a body does than a fresh one would, estimated from what queries for triangles did in the shape of now: pairs
-    /// of nodes that were looked at, for one that a fresh tree would look at. 1 before a query says anything, or where little was looked at.
+    /// Estimates how much more the tree of a body does than a fresh one would, as a factor.
     ///
-    /// The first queries after the body was added tell what a fresh tree does. With [`Options::mending`](crate::Options::mending) trees that have decayed are built
-    /// anew, a part of the work whenever the body has a new shape (by [`set_positions`](Self::set_positions) or the end of a motion), as
-    /// soon as that would have paid by now; a tree along the mesh ([`Partition::Connectivity`](crate::Partition::Connectivity)) is not, for
-    /// it would be the same again.
+    /// It comes from queries for triangles in the present shape: pairs of nodes that they looked
+    /// at, for each that a fresh tree would. The first queries after the body was added tell what a
+    /// fresh tree does. The factor is 1 before a query says anything, or where little was looked
+    /// at.
+    ///
+    /// With [`Options::mending`](crate::Options::mending), trees that have decayed are built anew,
+    /// as soon as that would have paid by now. A part of the work is done whenever the body gets a
+    /// new shape, by [`set_positions`](Self::set_positions) or the end of a motion. A tree along
+    /// the mesh ([`Partition::Connectivity`](crate::Partition::Connectivity)) is not, for it would
+    /// be the same again.
     ///
     /// # Errors
     ///

@@ -1,14 +1,15 @@
-//! The world: bodies, their shapes, and the questions that users ask.
+//! World: bodies, their shapes, and the questions that users ask.
 //!
-//! `World` is a `handle` of a `state`. What takes long to compile is behind the trait of `verbs`, which is compiled here, once for `f32`
-//! and once for `f64` (`scalar`). Questions for hits, each a `query`, are a folder a kind in `kinds`,
-//! which has the registry; what is `kept` for each comes from that. All else that users call is a
-//! file a topic: `shapes`, `distance`, `clearance`, `motion`, `free_step`, `filters`, `meshes` and
-//! `pieces`, `looking`, `writing`, and what is `interruptible`.
+//! `World` (`handle`) is a box of the `Verbs` trait (`verbs`), behind which `State` (`state`) does
+//! the work. So everything that takes long to compile is compiled here, once for `f32` and once for
+//! `f64` (`scalar`). Each kind of question for hits is a folder in `kinds/`, which has the
+//! registry; `kept` has the buffers that the registry lists. Everything else that users call is a
+//! file a topic.
 
 mod handle;
 
-// In the order in which documentation shows what they say of a world.
+// Modules in the order in which documentation shows their sections of `World`: new, bodies,
+// questions, motions, change, settings, looking inside. A test holds it.
 mod shapes;
 
 #[macro_use]
@@ -24,11 +25,11 @@ mod motion;
 
 mod free_step;
 
-mod filters;
-
 mod meshes;
 
 mod pieces;
+
+mod filters;
 
 mod looking;
 

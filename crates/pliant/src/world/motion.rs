@@ -1,4 +1,4 @@
-//! Where bodies of a world are going, what meets first on the way, and how far all may go.
+//! Motions of bodies from their present shape to the end of a step, and how far all may go.
 
 use super::handle::World;
 use super::scalar::Scalar;
@@ -7,24 +7,32 @@ use crate::ids::BodyId;
 use crate::queries::Impact;
 use crate::selection::Selection;
 
-/// Where bodies are going, what meets first on the way, and how far all may go.
+/// # Motions: where bodies go, and how far they may
 impl<S: Scalar> World<S> {
-    /// Begins a motion: says where the vertices of a body will be at the end of the step, shape (n, 3). On the way they move on straight
-    /// lines, from the shape that the body has now. Queries for candidates look at the whole way; what intersects is asked of the shape
-    /// of now, as ever. A body without a motion stands still.
+    /// Begins a motion: gives the positions of a body's vertices at the end of the step, shape (n,
+    /// 3).
     ///
-    /// The positions are checked as those of [`set_positions`](Self::set_positions) are. A motion takes the place of the one before, and
-    /// ends with [`finish_motion`](Self::finish_motion), [`advance_motion`](Self::advance_motion), the next new shape or mesh.
+    /// Vertices move on straight lines from the present shape to these. Queries for candidates and
+    /// impacts look at the whole way; queries for intersections and close pairs look at the present
+    /// shape. A body without a motion stands still.
+    ///
+    /// A motion replaces the one before. It ends with [`finish_motion`](Self::finish_motion),
+    /// [`advance_motion`](Self::advance_motion), or the next new shape or mesh.
+    ///
+    /// Cost: O(n); the positions are checked as by [`set_positions`](Self::set_positions).
     ///
     /// # Errors
     ///
-    /// Those of [`set_positions`](Self::set_positions); the body keeps the motion that it has.
+    /// The errors of [`set_positions`](Self::set_positions); the body then keeps the motion that it
+    /// has.
     #[doc(alias = "set_velocity")]
     pub fn set_motion(&mut self, body: BodyId, end: &[[S; 3]]) -> Result<(), Error> {
         self.verbs.set_motion(body, end)
     }
 
-    /// The shape that a body will have at the end of its motion; `None` if it has none.
+    /// Positions at the end of a body's motion, shape (n, 3); `None` if it has none.
+    ///
+    /// Cost: O(n).
     ///
     /// # Errors
     ///
@@ -34,34 +42,48 @@ impl<S: Scalar> World<S> {
         Ok(end.map(std::borrow::Cow::into_owned))
     }
 
-    /// The first contact on the way to the end of a motion: that with the least exact time of all
-    /// [`vertex_triangle_impacts`](Self::vertex_triangle_impacts) and [`edge_edge_impacts`](Self::edge_edge_impacts); of several at one
-    /// time a vertex and a triangle rather than edges, the first in order. Its interval is at most `width` wide: see
-    /// [`Query::width`](crate::Query::width).
+    /// Finds the first contact on the way to the end of the motions, over both kinds of impacts.
+    ///
+    /// It has the least exact time of all
+    /// [`vertex_triangle_impacts`](Self::vertex_triangle_impacts) and
+    /// [`edge_edge_impacts`](Self::edge_edge_impacts). Of several at one time, a vertex and a
+    /// triangle come before edges, then the order of lists decides. The interval of its time is at
+    /// most `width` wide: see [`Query::width`](crate::Query::width).
+    ///
+    /// Cost: a short part of the motion is looked at first, and no list is made.
     ///
     /// # Errors
     ///
-    /// Those of [`Query`](crate::Query).
+    /// The errors of [`Query`](crate::Query).
     pub fn first_impact(&mut self, of: Selection, width: f64) -> Result<Option<Impact>, Error> {
         self.verbs.first_impact(of, width, None)
     }
 
-    /// How far everything may go on its way to the end of a motion and stay further apart than `min_distance`: a time t from 0 to 1 to call
-    /// [`advance_motion`](Self::advance_motion) with. It is proven that on straight ways to the shape that this makes, rounded as it is, no
-    /// vertex meets a triangle and no edge another. 1 if that is so of the whole motion; then [`finish_motion`](Self::finish_motion) does
-    /// the same. 1 also if nothing moves, and less without a word if the start intersects: [`free_step`](Self::free_step) says so.
+    /// Computes how far everything may go on its way and stay further apart than `min_distance`.
     ///
-    /// With a `min_distance` of 0, t is at least 0.9 of the exact time of the first contact, if up to 0.91 of it everything is apart by 9 units
-    /// in the last place of the largest coordinate; else perhaps smaller, or 0. What meets at the start already does not count: it is in
-    /// the lists of impacts, with time 0. So a world that begins without intersections, and is advanced by such steps alone, never has any.
+    /// Returns a time t from 0 (the present shape) to 1 (the end of the motion), to call
+    /// [`advance_motion`](Self::advance_motion) with. On straight ways to the shape that this
+    /// makes, rounded as it is, no vertex meets a triangle and no edge another: that is proven. The
+    /// time is 1 if this holds for the whole motion; then [`finish_motion`](Self::finish_motion)
+    /// does as much. It is also 1 if nothing moves. If the start intersects, it may be small
+    /// without saying why; [`free_step`](Self::free_step) says so.
     ///
-    /// Above 0 it is a Euclidean distance; and 0.9 is of the time up to which everything is further apart than 1.001 times that. Elements
-    /// that are not further apart than it at the start may come nearer, and are kept from contact alone.
+    /// With a `min_distance` of 0, t is at least 0.9 of the exact time of the first contact, if
+    /// there is some room. The condition: up to 0.91 of that time everything is apart by 9 units in
+    /// the last place of the largest coordinate. Otherwise t may be smaller, or 0. Elements that
+    /// meet at the start do not count: they are in the lists of impacts, with time 0. So a world
+    /// that begins without intersections, and is advanced by such steps alone, never has any.
+    ///
+    /// A `min_distance` above 0 is a Euclidean distance, in the unit of the positions. Then the
+    /// factor 0.9 applies to the time up to which everything is further apart than 1.001 times
+    /// that. Elements that are not further apart than it at the start may come nearer; they are
+    /// kept from contact alone.
     ///
     /// ```
     /// # use pliant::{Selection, World};
     /// # let mut world = World::<f64>::new();
-    /// # let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
+    /// # let large = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]];
+    /// # let floor = world.add(&[[0, 1, 2]], &large)?;
     /// # let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 2.0], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
     /// # world.set_motion(leaf, &[[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
     /// let step = world.collision_free_step(Selection::Everything, 0.0)?;
@@ -73,15 +95,19 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// Those of [`Query`](crate::Query).
+    /// The errors of [`Query`](crate::Query).
     #[doc(alias = "compute_collision_free_stepsize")]
     pub fn collision_free_step(&mut self, of: Selection, min_distance: f64) -> Result<f64, Error> {
         self.verbs.collision_free_step(of, min_distance, None)
     }
 
-    /// Ends all motions on the way: every body that has one gets the shape in which it is at time `t`, from 0 (where it is) to 1 (the end).
-    /// Each coordinate is x0 + t (x1 - x0), computed in `f64`, each operation rounded, kept between x0 and x1, and rounded to `S`; at 1 it
-    /// is x1, as after [`finish_motion`](Self::finish_motion).
+    /// Ends all motions on the way: every body that has one gets its shape at time `t`.
+    ///
+    /// Time goes from 0 (the present shape) to 1 (the end). Each coordinate is x0 + t (x1 - x0),
+    /// computed in `f64`, each operation rounded, kept between x0 and x1, and rounded to `S`. At 1
+    /// it is x1, as after [`finish_motion`](Self::finish_motion).
+    ///
+    /// Cost: O(n) for each body that moves.
     ///
     /// ```
     /// # use pliant::World;
@@ -96,12 +122,14 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// [`BadTime`](crate::ErrorKind::BadTime) if `t` is not from 0 to 1; nothing has moved.
+    /// [`BadTime`](crate::ErrorKind::BadTime) if `t` is not from 0 to 1; then nothing has moved.
     pub fn advance_motion(&mut self, t: f64) -> Result<(), Error> {
         self.verbs.advance_motion(t)
     }
 
-    /// Ends all motions: every body that has one gets the shape at its end, without a copy. The others stand still.
+    /// Ends all motions: every body that has one gets the shape at its end, without a copy.
+    ///
+    /// Bodies without a motion stand still. Cost: O(b) for b bodies.
     pub fn finish_motion(&mut self) {
         self.verbs.finish_motion();
     }

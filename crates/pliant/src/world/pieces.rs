@@ -1,4 +1,6 @@
-//! Bodies from one and one from bodies: components, split, fuse, weld. All of it is said with the calls that anybody has.
+//! Components, split, fuse and weld: several bodies from one, and one from several.
+//!
+//! All of it is said with calls that any user has.
 
 use super::handle::World;
 use super::scalar::Scalar;
@@ -10,29 +12,34 @@ use crate::threads::{Interrupt, Question};
 use pliant_exact::distance::are_points_within;
 use std::ops::Range;
 
-/// A body that was a component of another.
+/// Piece: a body that was a component of another, from [`World::split`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Piece {
-    /// The new body.
+    /// Id of the new body.
     pub body: BodyId,
-    /// For each of its triangles the number that it had; ascending.
+    /// Number that each of its triangles had in the other body; ascending.
     pub triangles: Vec<u32>,
-    /// For each of its vertices the number that it had; ascending.
+    /// Number that each of its vertices had in the other body; ascending.
     pub vertices: Vec<u32>,
 }
 
-/// The numbers of what came from another body.
+/// New numbers of what came from another body, from [`World::fuse`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fused {
-    /// For each triangle of the body that is no more the number that it has now; [`u32::MAX`] for numbers that were empty.
+    /// New number of each triangle of the body that is no more; [`u32::MAX`] for numbers that were
+    /// empty.
     pub triangles: Vec<u32>,
-    /// The same of its vertices.
+    /// New number of each of its vertices; [`u32::MAX`] for numbers that were empty.
     pub vertices: Vec<u32>,
 }
 
+/// # Change: components, split, fuse, weld
 impl<S: Scalar> World<S> {
-    /// For each triangle of a body its component, shape (m,): two are in one if they share a vertex, or hang together through others that
-    /// do. Components are numbered from 0 in the order of their first triangles; an empty number has [`u32::MAX`].
+    /// Labels the connected components of a body's mesh: a number for each triangle, shape (m,).
+    ///
+    /// Two triangles are in one component if they share a vertex, or are linked through others that
+    /// do. Components are numbered from 0 in the order of their first triangles; an empty number
+    /// has [`u32::MAX`].
     ///
     /// Cost: O(m + n).
     ///
@@ -44,12 +51,16 @@ impl<S: Scalar> World<S> {
         self.find_components(body)
     }
 
-    /// Makes a body of each component, but of the largest, which stays what it is with all its numbers: that with the most triangles, of
-    /// several the first. Returns the new bodies in the order of their first triangles; none, and nothing has changed, if all hangs together.
+    /// Splits a body: each component but the largest becomes a body of its own.
     ///
-    /// What they have from the body: filter, loose box, vertex groups, and whom it [ignores](Self::ignore); if it ignores itself, the
-    /// pieces ignore each other and it. So [`Everything`](crate::Selection::Everything) finds what it found. A motion of the body ends, as
-    /// by [`apply`](Self::apply). Vertices that no triangle uses stay with it.
+    /// The largest stays what it is, with all its numbers: the one with the most triangles, and of
+    /// several the first. Returns the new bodies in the order of their first triangles. If all is
+    /// one component there are none, and nothing has changed.
+    ///
+    /// Pieces inherit filter, loose box, vertex groups, and whom the body [ignores](Self::ignore).
+    /// If it ignores itself, the pieces ignore each other and it. So
+    /// [`Everything`](crate::Selection::Everything) finds what it found. A motion of the body ends,
+    /// as by [`apply`](Self::apply). Vertices that no triangle uses stay with it.
     ///
     /// ```
     /// use pliant::World;
@@ -69,16 +80,19 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody); [`TooManyBodies`](crate::ErrorKind::TooManyBodies), and nothing has changed.
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody),
+    /// [`TooManyBodies`](crate::ErrorKind::TooManyBodies); then nothing has changed.
     pub fn split(&mut self, body: BodyId) -> Result<Vec<Piece>, Error> {
         self.split_apart(body)
     }
 
-    /// Puts the triangles and vertices of a second body behind those of a first, and removes the second. Says which numbers they have now.
+    /// Fuses two bodies: puts triangles and vertices of `b` behind those that `a` has, and removes
+    /// `b`.
     ///
-    /// The first keeps its numbers, its filter and whom it [ignores](Self::ignore); vertices keep their groups. The loose box is then one
-    /// around both if both had one, else there is none. Motions of either end, as by [`apply`](Self::apply). Nothing is welded: see
-    /// [`weld`](Self::weld).
+    /// Returns the numbers that they have now. Body `a` keeps its numbers, its filter and whom it
+    /// [ignores](Self::ignore); vertices keep their groups. If both had a loose box, it then has
+    /// one around both; else it has none. Motions of either end, as by [`apply`](Self::apply).
+    /// Nothing is welded: see [`weld`](Self::weld).
     ///
     /// ```
     /// use pliant::World;
@@ -94,43 +108,49 @@ impl<S: Scalar> World<S> {
     /// # Ok::<(), pliant::Error>(())
     /// ```
     ///
-    /// Cost: building a tree for what comes; for both, if the second has more than a sixteenth of the triangles of the first.
+    /// Cost: building a tree for what comes; for both, if `b` has more than a sixteenth of the
+    /// triangles of `a`.
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`SameBody`](crate::ErrorKind::SameBody), [`TooLarge`](crate::ErrorKind::TooLarge); nothing has changed.
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`SameBody`](crate::ErrorKind::SameBody),
+    /// [`TooLarge`](crate::ErrorKind::TooLarge); then nothing has changed.
     #[doc(alias = "merge")]
     pub fn fuse(&mut self, a: BodyId, b: BodyId) -> Result<Fused, Error> {
         self.fuse_with(a, b)
     }
 
-    /// Makes boundary edges one where they coincide: where the ends of one are, one by one, at most a tolerance from those of another, in
-    /// the unit of the positions, decided exactly. Of vertices that become one the lowest stays where it is, the others go. A boundary edge is
-    /// one that exactly one triangle has.
+    /// Welds boundary edges of a body that coincide: their vertices become one.
     ///
-    /// Vertices that coincide are not welded where no edges do, and never two corners of one triangle. Says what has changed; nothing, if
-    /// nothing coincides.
+    /// A boundary edge belongs to exactly one triangle. Two of them coincide where each end of one
+    /// is at most `tolerance` from an end of the other. The tolerance is in the unit of the
+    /// positions, and this is decided exactly. Of vertices that become one, the lowest stays where
+    /// it is and the others go.
+    ///
+    /// Vertices that coincide are not welded where no edges do, nor are two corners of one
+    /// triangle. Returns what has changed; nothing, if nothing coincides.
     ///
     /// ```
     /// use pliant::World;
     ///
     /// // Two triangles, each with vertices of its own.
     /// let mut world = World::<f32>::new();
-    /// let square = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-    /// let body = world.add(&[[0, 1, 2], [3, 4, 5]], &square)?;
+    /// let lower = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
+    /// let upper = [[0.0; 3], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    /// let body = world.add(&[[0, 1, 2], [3, 4, 5]], &[lower, upper].concat())?;
     /// let edited = world.weld(body, 0.0)?;
     /// assert_eq!(edited.removed_vertices, [3, 4]);
     /// assert_eq!(world.triangles(body)?, [[0, 1, 2], [0, 2, 5]]);
     /// # Ok::<(), pliant::Error>(())
     /// ```
     ///
-    /// Cost: O(m log m), however many are within the tolerance; where not all of these may become one, as often as there are edges that they
-    /// come to.
+    /// Cost: O(m log m), however many are within the tolerance. If not all of these may become one,
+    /// it is repeated for each edge that they come to.
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody); [`BadDistance`](crate::ErrorKind::BadDistance) if the tolerance is not a finite number that is at
-    /// least 0.
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody); [`BadDistance`](crate::ErrorKind::BadDistance)
+    /// if the tolerance is negative, infinite or NaN.
     #[doc(alias = "stitch")]
     pub fn weld(&mut self, body: BodyId, tolerance: f64) -> Result<Edited, Error> {
         self.weld_unless(body, tolerance, None)
@@ -275,7 +295,7 @@ impl<S: Scalar> World<S> {
         self.apply(&edit)
     }
 
-    /// Refuses as many bodies more as there are no ids for.
+    /// Refuses to make `count` more bodies if there are not as many ids left.
     fn check_ids_for(&self, count: usize) -> Result<(), Error> {
         let left = self
             .next_id()
@@ -300,11 +320,11 @@ impl Piece {
     }
 }
 
-/// What the pieces of a body have from it.
+/// Properties that the pieces of a body inherit from it.
 struct Inherited<S> {
     filter: (u32, u32),
     loose: Option<([S; 3], [S; 3])>,
-    /// Whom it does not meet.
+    /// Bodies that it does not meet.
     ignored: Vec<BodyId>,
 }
 
@@ -338,7 +358,7 @@ impl<S: Scalar> Inherited<S> {
     }
 }
 
-/// Those of some things that are there.
+/// Keeps the things whose flag is set.
 fn kept<T: Copy>(things: &[T], are_there: &[bool]) -> Vec<T> {
     let both = things.iter().zip(are_there);
     both.filter(|(_, is)| **is)
@@ -346,14 +366,14 @@ fn kept<T: Copy>(things: &[T], are_there: &[bool]) -> Vec<T> {
         .collect()
 }
 
-/// Numbers for those that are there.
+/// Numbers the things whose flag is set, in order; [`u32::MAX`] for the others.
 fn numbered(are_there: &[bool], mut numbers: Range<u32>) -> Vec<u32> {
     let mut number = |&is: &bool| if is { numbers.next() } else { None };
     let numbers = are_there.iter().map(|is| number(is).unwrap_or(u32::MAX));
     numbers.collect()
 }
 
-/// The box around two.
+/// Smallest box around two.
 fn hull<S: Scalar>([one, other]: [([S; 3], [S; 3]); 2]) -> ([S; 3], [S; 3]) {
     let lower = |axis: usize| {
         if other.0[axis] < one.0[axis] {

@@ -1,4 +1,4 @@
-//! A query on its way: who is asked about, how much is wanted of it, and what may end it early.
+//! Query as a builder: whom it is about, how much is wanted, and what may end it early.
 
 use crate::collide::{Ask, Request};
 use crate::error::Error;
@@ -7,20 +7,26 @@ use crate::threads::Question;
 use std::fmt;
 use std::ops::ControlFlow;
 
-/// A question that was put to a [`World`](crate::World), and waits to be told how much is wanted: [`all`](Self::all) hits,
-/// the [`first`](Self::first), or a [`visit`](Self::visit) to one after the other.
+/// Query of a [`World`](crate::World) that waits to be told how much is wanted.
+///
+/// That is [`all`](Self::all) hits, the [`first`](Self::first), or a [`visit`](Self::visit) to one
+/// after the other.
 ///
 /// # Errors
 ///
-/// Whatever is wanted, the answer is an error, and the world stays usable, with
+/// Whatever is wanted, these are the errors, after which the world stays usable:
 ///
-/// - [`NoSuchBody`](crate::ErrorKind::NoSuchBody) if the selection names a body that is not there,
-///   [`SameBody`](crate::ErrorKind::SameBody) if it names one twice as two;
-/// - [`Interrupted`](crate::ErrorKind::Interrupted) if [`interrupt_if`](Self::interrupt_if) said so;
-/// - [`TooManyHits`](crate::ErrorKind::TooManyHits) if a list would be longer than [`at_most`](Self::at_most) allows;
-/// - of impacts, [`BadWidth`](crate::ErrorKind::BadWidth) if the width is;
-/// - of candidates, [`BadMargin`](crate::ErrorKind::BadMargin) if the margin is negative, infinite or NaN; of close pairs,
-///   [`BadDistance`](crate::ErrorKind::BadDistance) if the distance is.
+/// - [`NoSuchBody`](crate::ErrorKind::NoSuchBody) if the selection names a body that is not there;
+/// - [`SameBody`](crate::ErrorKind::SameBody) if it names one body as two;
+/// - [`Interrupted`](crate::ErrorKind::Interrupted) if [`interrupt_if`](Self::interrupt_if) said
+///   so;
+/// - [`TooManyHits`](crate::ErrorKind::TooManyHits) if a list would be longer than
+///   [`at_most`](Self::at_most) allows;
+/// - [`BadWidth`](crate::ErrorKind::BadWidth) for impacts, if the width is negative, infinite or
+///   NaN;
+/// - [`BadMargin`](crate::ErrorKind::BadMargin) for candidates, if the radius is negative, infinite
+///   or NaN;
+/// - [`BadDistance`](crate::ErrorKind::BadDistance) for close pairs, if the distance is.
 #[must_use = "a query does nothing until it is asked for all, for the first, or to visit"]
 pub struct Query<'w, H> {
     asked: &'w mut dyn Ask<H>,
@@ -35,33 +41,39 @@ impl<'w, H: Copy> Query<'w, H> {
         }
     }
 
-    /// With a margin round each element, or a distance.
+    /// Sets the margin round each element, or the distance.
     pub(super) fn within(mut self, length: f64) -> Self {
         self.request.within = length;
         self
     }
 
-    /// Refuses a list of more hits than this, instead of making one that may fill the memory. While it is found, no more than
-    /// these are held, and some thousands a thread.
+    /// Refuses a list of more hits than this, instead of filling the memory.
+    ///
+    /// While hits are found, no more than these are held, and some thousands a thread.
     pub fn at_most(mut self, hits: usize) -> Self {
         self.request.most = hits;
         self
     }
 
-    /// Ends the query early, with an error, when `question` says so. It is asked by every thread that works on the query, every 10
-    /// milliseconds at least and mostly much more often, so it should cost little: a flag that is read, a clock. Three things may
-    /// take longer: memory for a list of millions is asked of the system in one piece, a list of hundreds of thousands of pairs of
-    /// bodies is sorted in one, and one pair of moving elements may take some ten milliseconds where its coordinates are a thousand
-    /// powers of two apart.
+    /// Ends the query early, with an error, when `question` says so.
     ///
-    /// The boxes of all bodies are then made anew by the next query; nothing else is lost.
+    /// Every thread that works on the query asks, at least every 10 milliseconds and mostly much
+    /// more often. So a question should cost little: a flag that is read, a clock. Three things may
+    /// take longer between two looks:
+    ///
+    /// - memory for a list of millions is asked of the system in one piece;
+    /// - a list of hundreds of thousands of pairs of bodies is sorted in one piece;
+    /// - one pair of moving elements may take some ten milliseconds, where its coordinates are a
+    ///   thousand powers of two apart.
+    ///
+    /// The next query makes the boxes of all bodies anew; nothing else is lost.
     ///
     /// ```
     /// # use pliant::{ErrorKind, Selection, World};
     /// use std::sync::atomic::{AtomicBool, Ordering};
     ///
     /// # let mut world = World::<f32>::new();
-    /// # let cloth = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
+    /// # let cloth = world.add(&[[0, 1, 2]], &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
     /// let stop = AtomicBool::new(true);
     /// let stopped = || stop.load(Ordering::Relaxed);
     /// let answer = world.intersections(Selection::Within(cloth)).interrupt_if(&stopped).all();
@@ -73,16 +85,19 @@ impl<'w, H: Copy> Query<'w, H> {
         self
     }
 
-    /// The same, if there is a question.
+    /// Ends the query early as [`interrupt_if`](Self::interrupt_if), if there is a question.
     pub(super) fn interrupt(mut self, question: Option<Question<'w>>) -> Self {
         self.request.question = question;
         self
     }
 
-    /// All hits, sorted: the same for every option, history and number of threads. The slice is valid until the next call.
+    /// Returns all hits, sorted: equal for every option, history and number of threads.
     ///
-    /// Cost: the broad phase of a query of the whole world, O(n + overlaps) for bodies that move a little; and for bodies whose boxes
-    /// overlap, what grows with the region where they are close. Sorting is linear in the hits.
+    /// The slice is valid until the next call.
+    ///
+    /// Cost: the broad phase of a query of the whole world is O(b + overlaps), for b bodies that
+    /// move a little. For bodies whose boxes overlap, the cost grows with the region where they are
+    /// close. Sorting is O(hits).
     ///
     /// # Errors
     ///
@@ -91,10 +106,10 @@ impl<'w, H: Copy> Query<'w, H> {
         self.asked.all(&self.request)
     }
 
-    /// Some hit, if there is one. Much cheaper than all where there are many.
+    /// Returns some hit, if there is one: much cheaper than all where there are many.
     ///
-    /// Whether there is one never depends on options or history; which one may. But of impacts it is that with the least exact time; of
-    /// several, the first in order.
+    /// Whether there is one never depends on options or history; which one may. Of impacts it is
+    /// the one with the least exact time, and of several at one time the first in order.
     ///
     /// # Errors
     ///
@@ -103,7 +118,9 @@ impl<'w, H: Copy> Query<'w, H> {
         self.asked.first(&self.request)
     }
 
-    /// Shows `visit` every hit once, until it breaks; returns what it broke with. The order is deterministic, not sorted.
+    /// Shows `visit` every hit once, until it breaks. Returns the value that it broke with.
+    ///
+    /// The order is deterministic, not sorted.
     ///
     /// ```
     /// # use pliant::{Selection, World};
@@ -111,11 +128,13 @@ impl<'w, H: Copy> Query<'w, H> {
     ///
     /// # let mut world = World::<f32>::new();
     /// # for z in [0.0, 0.5] {
-    /// #     world.add(&[[0, 1, 2], [0, 1, 3]], &[[0.0, 0.0, z], [4.0, 0.0, z], [0.0, 4.0, z], [0.0, 0.0, z + 1.0]])?;
+    /// #     let corners = [[0.0, 0.0, z], [4.0, 0.0, z], [0.0, 4.0, z], [0.0, 0.0, z + 1.0]];
+    /// #     world.add(&[[0, 1, 2], [0, 1, 3]], &corners)?;
     /// # }
     /// let mut budget = 2;
     /// let exhausted = world.intersections(Selection::World).visit(|pair| {
-    ///     println!("{} of {} and {} of {}", pair.triangle_a, pair.body_a, pair.triangle_b, pair.body_b);
+    ///     println!("triangle {} of {}", pair.triangle_a, pair.body_a);
+    ///     println!("meets triangle {} of {}", pair.triangle_b, pair.body_b);
     ///     budget -= 1;
     ///     if budget == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     /// })?;
@@ -125,7 +144,7 @@ impl<'w, H: Copy> Query<'w, H> {
     ///
     /// # Errors
     ///
-    /// See [`Query`]. If it is interrupted, hits that were shown were true.
+    /// See [`Query`]. Hits that were shown before an interruption are true.
     pub fn visit<B>(
         self,
         mut visit: impl FnMut(H) -> ControlFlow<B>,
@@ -143,12 +162,15 @@ impl<'w, H: Copy> Query<'w, H> {
         Ok(answer)
     }
 
-    /// Shows `visit` every hit once, some at a time, until it breaks; returns what it broke with. For whoever counts or filters many:
-    /// no list of all is made. The order, and how many come at a time, is deterministic.
+    /// Shows `visit` every hit once, some at a time, until it breaks. Returns the value that it
+    /// broke with.
+    ///
+    /// This is for callers that count or filter many: no list of all is made. The order, and how
+    /// many come at a time, are deterministic.
     ///
     /// # Errors
     ///
-    /// See [`Query`]. If it is interrupted, hits that were shown were true.
+    /// See [`Query`]. Hits that were shown before an interruption are true.
     pub fn visit_some<B>(
         self,
         mut visit: impl FnMut(&[H]) -> ControlFlow<B>,
@@ -166,9 +188,11 @@ impl<'w, H: Copy> Query<'w, H> {
         Ok(answer)
     }
 
-    /// Does early what the query would do first, and asks nothing: finds the bodies that may meet and refits the upper levels of
-    /// their trees; all of it in a body that meets itself. Never needed for right answers; it is for whoever wants to time it, or has
-    /// time to spare.
+    /// Prepares the query: does early what it would do first, and asks nothing.
+    ///
+    /// It finds the bodies that may meet and refits the upper levels of their trees; in a body that
+    /// meets itself, all levels. Right answers never need it. It is for callers that time this
+    /// part, or have time to spare.
     ///
     /// # Errors
     ///

@@ -1,5 +1,5 @@
-//! The two types of coordinates as users name them, and where each gets its state: here, and nowhere else, everything generic is
-//! compiled.
+//! Scalars as users name them, `f32` and `f64`, and the one place where generic code is compiled
+//! for each.
 
 use super::state::State;
 use super::verbs::Verbs;
@@ -7,16 +7,18 @@ use crate::kernels::Coordinate;
 use crate::options::Options;
 use crate::threads::Threads;
 
-/// A coordinate: `f32` or `f64`. Sealed, because the proofs behind the decisions are for these two.
+/// Coordinate type: `f32` or `f64`.
+///
+/// The trait is sealed, because the proofs behind the decisions are for these two.
 #[expect(
     private_bounds,
     reason = "sealed; what the library needs of it is not for users"
 )]
 pub trait Scalar: sealed::HasVerbs + Coordinate {
-    /// The same value; exact.
+    /// Converts to `f64`, exactly.
     fn to_f64(self) -> f64;
 
-    /// Finite and at most `f32::MAX` in magnitude.
+    /// Whether the value is finite and at most `f32::MAX` in magnitude.
     fn is_in_range(self) -> bool;
 }
 

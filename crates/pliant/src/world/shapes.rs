@@ -1,4 +1,4 @@
-//! Bodies of a world, and the shapes that they have.
+//! Bodies of a world: adding, moving and removing them.
 
 use super::handle::World;
 use super::scalar::Scalar;
@@ -6,38 +6,49 @@ use crate::error::{Error, ErrorKind};
 use crate::ids::BodyId;
 use crate::selection::Selection;
 
-/// Bodies, and the shapes that they have.
+/// # Bodies: adding, moving, removing
 impl<S: Scalar> World<S> {
-    /// Adds a body: triangles as corner indices into positions, shape (m, 3) and (n, 3).
+    /// Adds a body and returns its id: triangles as corner indices, shape (m, 3), and positions,
+    /// shape (n, 3).
     ///
-    /// Builds its tree on these positions, which need not be special; a rest pose is best. Corners may repeat: a degenerate
-    /// triangle is the segment or point that it is. Vertices that no triangle uses are allowed, and checked like the others.
+    /// Indices count from 0. The tree is built on these positions, which need not be special; a
+    /// rest pose is best. Corners may repeat: a degenerate triangle is the segment or point that it
+    /// is. Vertices that no triangle uses are allowed, and checked like the others.
     ///
     /// Cost: O(m log m) for the balanced partition; for the others O(m) a level of the tree.
     ///
     /// # Errors
     ///
-    /// [`NoTriangles`](crate::ErrorKind::NoTriangles), [`VertexOutOfRange`](crate::ErrorKind::VertexOutOfRange),
-    /// [`BadPosition`](crate::ErrorKind::BadPosition), [`NeedsSubnormals`](crate::ErrorKind::NeedsSubnormals),
-    /// [`TooLarge`](crate::ErrorKind::TooLarge) above 2^28 triangles or 2^32 - 1 vertices, and
+    /// [`NoTriangles`](crate::ErrorKind::NoTriangles),
+    /// [`VertexOutOfRange`](crate::ErrorKind::VertexOutOfRange),
+    /// [`BadPosition`](crate::ErrorKind::BadPosition),
+    /// [`NeedsSubnormals`](crate::ErrorKind::NeedsSubnormals).
+    /// [`TooLarge`](crate::ErrorKind::TooLarge) above 2^28 triangles or 2^32 - 1 vertices.
     /// [`TooManyBodies`](crate::ErrorKind::TooManyBodies) after 2^32 bodies.
     #[doc(alias = "insert")]
     pub fn add(&mut self, triangles: &[[u32; 3]], positions: &[[S; 3]]) -> Result<BodyId, Error> {
         self.verbs.add(triangles, positions)
     }
 
-    /// Gives a body a new shape: one position for each of its vertices, shape (n, 3), in the order in which it was added.
+    /// Gives a body a new shape: a position for each vertex, shape (n, 3), in the order in which it
+    /// was added.
     ///
-    /// The positions are checked, and taken over only if all are good; the body keeps its old shape if not. One pass that copies them;
-    /// or, if a query looked at the shape before, and the body is large or there is one thread, one that checks and one that takes
+    /// The positions are checked, and taken over only if all are good; else the body keeps its old
+    /// shape.
+    ///
+    /// Cost: O(n), one pass that copies them. There are two passes if a query looked at the shape
+    /// before, and the body is large or there is one thread. The first checks; the second brings
     /// them straight into the order of the tree.
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`WrongLength`](crate::ErrorKind::WrongLength),
-    /// [`BadPosition`](crate::ErrorKind::BadPosition) for the first coordinate of any vertex, used or not, that is NaN, infinite or above
-    /// `f32::MAX` in magnitude, [`OutsideLooseBox`](crate::ErrorKind::OutsideLooseBox),
-    /// [`NeedsSubnormals`](crate::ErrorKind::NeedsSubnormals) in a thread that flushes subnormal numbers.
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody),
+    /// [`WrongLength`](crate::ErrorKind::WrongLength),
+    /// [`OutsideLooseBox`](crate::ErrorKind::OutsideLooseBox).
+    /// [`BadPosition`](crate::ErrorKind::BadPosition) for the first coordinate, of a used vertex or
+    /// not, that is NaN, infinite or above `f32::MAX` in magnitude.
+    /// [`NeedsSubnormals`](crate::ErrorKind::NeedsSubnormals) in a thread that flushes subnormal
+    /// numbers.
     #[doc(alias = "update_vertices")]
     #[doc(alias = "refit")]
     pub fn set_positions(&mut self, body: BodyId, positions: &[[S; 3]]) -> Result<(), Error> {
@@ -70,14 +81,19 @@ impl<S: Scalar> World<S> {
         self.verbs.set_positions_of(shapes)
     }
 
-    /// Like [`set_positions`](Self::set_positions), but `write` fills a buffer of the world's, shape (n, 3), in the order in
-    /// which the vertices were added, so that the caller needs none of its own. The buffer comes filled with NaN: every
-    /// vertex must be written. The same checked pass then takes the shape over, into the order of the tree.
+    /// Gives a body a new shape that `write` fills into a buffer of the world's, shape (n, 3).
+    ///
+    /// Vertices come in the order in which they were added. The caller needs no buffer of its own.
+    /// This one comes filled with NaN, and every vertex must be written. It is then checked and
+    /// taken over as by [`set_positions`](Self::set_positions).
+    ///
+    /// Cost: O(n).
     ///
     /// # Errors
     ///
-    /// Those of [`set_positions`](Self::set_positions); a coordinate that is NaN, which an unwritten one is, is
-    /// [`NotWritten`](crate::ErrorKind::NotWritten). If `write` panics, the body keeps its shape.
+    /// The errors of [`set_positions`](Self::set_positions). A coordinate that is NaN, as an
+    /// unwritten one is, is [`NotWritten`](crate::ErrorKind::NotWritten). If `write` panics, the
+    /// body keeps its shape.
     pub fn write_positions(
         &mut self,
         body: BodyId,
@@ -100,7 +116,7 @@ impl<S: Scalar> World<S> {
         })
     }
 
-    /// Removes a body. Its id will not be used again.
+    /// Removes a body, whose id will not be used again. Cost: O(b) for b bodies.
     ///
     /// # Errors
     ///
@@ -113,7 +129,7 @@ impl<S: Scalar> World<S> {
         Ok(())
     }
 
-    /// The bodies of a selection, whether they are there or not.
+    /// Bodies of a selection, whether they are there or not.
     pub(super) fn bodies_of(&self, of: Selection) -> Vec<BodyId> {
         match of {
             Selection::World | Selection::Everything => self.bodies().collect(),
@@ -122,7 +138,7 @@ impl<S: Scalar> World<S> {
         }
     }
 
-    /// The bodies of this world, in the order in which they were added.
+    /// Ids of the bodies of this world, in the order in which they were added.
     pub fn bodies(&self) -> impl ExactSizeIterator<Item = BodyId> {
         self.state().common.bodies.ids().iter().copied()
     }

@@ -1,4 +1,4 @@
-//! What a world holds: bodies, options, and what is kept for each kind of query.
+//! State of a world: bodies, options, and the buffers of each kind of query.
 
 use super::kept::Kinds;
 use crate::bodies::{Bodies, Body};
@@ -12,22 +12,22 @@ use crate::threads::{Executor, Grain, Interrupt, Threads};
 use crate::traversal::Scratch;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// How many worlds there were.
+/// Count of all worlds that the process has made.
 static WORLDS: AtomicU64 = AtomicU64::new(0);
 
-/// All that a world is.
+/// State of a world.
 pub(crate) struct State<S: Coordinate> {
     pub(super) common: Common<S>,
     pub(super) kinds: Kinds<S>,
     pub(super) witnesses: Witnesses,
     pub(super) distances: Distances,
-    /// A shape that is not a body's yet: what `write_positions` lends, where `advance_motion` goes.
+    /// Shape that is not a body's yet: `write_positions` lends it, `advance_motion` writes it.
     pub(super) lent: Vec<[S; 3]>,
-    /// Which world it is, among all of the process.
+    /// Number of this world, unique in the process.
     pub(super) number: u64,
 }
 
-/// A refusal of a call about a body.
+/// Makes an error about a body.
 pub(super) fn about(body: BodyId) -> impl Fn(ErrorKind) -> Error {
     move |kind| Error {
         body: Some(body),
@@ -61,7 +61,8 @@ impl<S: Coordinate> State<S> {
         self.common.bodies.get(id)
     }
 
-    /// Changes a body, with the threads that there are; or leaves it as it is and says which body it is about.
+    /// Changes a body, with the world's threads. If that is refused, the error names the body,
+    /// which stays as it was.
     pub(super) fn change(
         &mut self,
         id: BodyId,
@@ -81,7 +82,7 @@ impl<S: Coordinate> State<S> {
         change(body, *instructions, executor).map_err(about(id))
     }
 
-    /// A body is removed, or its triangles have a new order: what was found of them the last time is nothing any more.
+    /// Forgets the last answers about a body that is removed, or whose triangles have a new order.
     pub(super) fn forget_answers(&mut self, id: BodyId) {
         self.witnesses.forget(id);
         self.distances.last.forget(id);
@@ -144,7 +145,8 @@ impl<S: Coordinate> State<S> {
         shapes.iter().try_for_each(|&(id, _)| self.mend(id))
     }
 
-    /// Ends the motion of every body that has one. The error is that of the first body whose motion cannot be ended.
+    /// Ends the motion of every body that has one. The error is of the first body whose motion
+    /// cannot be ended.
     pub(super) fn end_motions<E>(
         &mut self,
         mut end: impl FnMut(&mut Body<S>, Instructions, Executor) -> Result<(), E>,
@@ -179,7 +181,7 @@ impl<S: Coordinate> State<S> {
         ended
     }
 
-    /// A body has a new shape: its tree mends itself, if trees do.
+    /// Mends the tree of a body that has a new shape, if trees mend themselves.
     fn mend(&mut self, id: BodyId) -> Result<(), Error> {
         let options = self.common.options;
         if options.mending && self.common.bodies.get_mut(id)?.mend(&options) {

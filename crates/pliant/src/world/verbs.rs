@@ -1,6 +1,10 @@
-//! What is compiled once for `f32` and once for `f64`, here and not in a user's crate: all that takes long to compile.
+//! Engine of a world behind a trait, compiled once for `f32` and once for `f64`.
 //!
-//! [`World`](super::World) holds a state behind this trait. What is short it does itself, with the state.
+//! [`World`](super::World) holds a state behind this trait, so that all that takes long to compile
+//! is compiled in this crate and not in a user's. Short work it does itself, with the state. The
+//! library is thus as fast as it was compiled, whatever the user's crate is compiled with. A user's
+//! closure crosses as `dyn`, a list of hits at a time. `benchmarks/compile_cost.py` measures all
+//! this.
 
 use super::kept::AskAll;
 use super::state::{State, about};
@@ -16,7 +20,7 @@ use crate::selection::Selection;
 use crate::threads::{Interrupt, Question};
 use std::convert::Infallible;
 
-/// A state, and what it does. What its methods mean is said where [`World`](super::World) has them.
+/// State and its verbs. [`World`](super::World) says what each method means.
 pub(crate) trait Verbs<S: Coordinate>: AskAll {
     fn state(&self) -> &State<S>;
     fn state_mut(&mut self) -> &mut State<S>;
@@ -85,7 +89,7 @@ impl<S: Coordinate> Verbs<S> for State<S> {
         let mut copy = Self::new(*options, threads.another(options.threads));
         copy.common.instructions = *instructions;
         copy.common.bodies = bodies.copy();
-        // As if all of them had been added just now.
+        // The copy counts its bodies as if all had been added just now.
         for _ in bodies.in_order() {
             copy.common.note_movement();
         }
@@ -219,7 +223,7 @@ impl<S: Coordinate> Verbs<S> for State<S> {
         check(cut_off)?;
         let mut statistics = self.common.done_early;
         let (mut nearest, mut within) = (Ok(None), cut_off);
-        // Kept for the next question.
+        // Kept for the next question, so that replays allocate nothing.
         let mut others = std::mem::take(&mut self.distances.others);
         let listed = others_by_gap(&mut self.common, id, &mut others);
         for &(gap, other) in &others {

@@ -1,4 +1,4 @@
-//! For tests, and for who writes worlds down.
+//! Hidden calls, for tests and for callers that write worlds down.
 
 use super::handle::World;
 use super::scalar::Scalar;
@@ -6,16 +6,17 @@ use crate::error::Error;
 use crate::ids::BodyId;
 use crate::kernels::Instructions;
 
-/// For tests, and for who writes worlds down.
+// Without a section of its own: all of it is hidden.
 impl<S: Scalar> World<S> {
-    /// Makes the kernels use other instructions, for tests that all of them give the same answers.
+    /// Makes the kernels use other instructions, for tests that all of them give equal answers.
     #[doc(hidden)]
     pub fn use_instructions(&mut self, instructions: Instructions) {
         self.state_mut().common.instructions = instructions;
     }
 
-    /// The edges of a body, if anybody has asked for them, for whoever writes a world down: their
-    /// numbers stay. None if nobody has; they will be sorted.
+    /// Edges of a body if anybody has asked for them, shape (k, 2), to write a world down.
+    ///
+    /// Their numbers stay. `None` if nobody has asked; they will be sorted then.
     ///
     /// # Errors
     ///
@@ -25,8 +26,10 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.mesh().numbered_edges())
     }
 
-    /// Numbers the edges of a body as they were when the world was written down. Returns false if
-    /// these are not the edges of its mesh, or somebody has asked for them.
+    /// Numbers the edges of a body, shape (k, 2), as they were when the world was written down.
+    ///
+    /// Returns false if these are not the edges of its mesh, or somebody has asked for edges
+    /// already.
     ///
     /// # Errors
     ///
@@ -36,13 +39,14 @@ impl<S: Scalar> World<S> {
         self.verbs.number_edges(body, edges)
     }
 
-    /// The id of the next body, for whoever writes a world down; none if there are no more.
+    /// Id of the next body, to write a world down; `None` if there are no more.
     #[doc(hidden)]
     pub fn next_id(&self) -> Option<u32> {
         self.state().common.bodies.next_id().ok().map(|id| id.0)
     }
 
-    /// Uses no id below this one any more, or none at all, for whoever reads a world that was written down. Ids never go back.
+    /// Skips all ids below `next`, or all there are, for a world that is read back. Ids never go
+    /// back.
     #[doc(hidden)]
     pub fn skip_ids(&mut self, next: Option<u32>) {
         self.state_mut().common.bodies.skip_ids(next);

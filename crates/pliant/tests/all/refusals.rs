@@ -76,7 +76,9 @@ fn shapes_that_are_not_taken_over() {
         })
     );
     let error = world.set_vertex_groups(body, &[1; 15]).unwrap_err();
-    assert_eq!(error.to_string(), "body 0: 15 groups for 16 vertices");
+    let message =
+        "body 0: 15 groups for 16 vertices; give one for each vertex, empty ones included";
+    assert_eq!(error.to_string(), message);
     let mut bad = positions.clone();
     (bad[9][2], bad[11][0]) = (f32::NEG_INFINITY, f32::INFINITY);
     let error = world.set_positions(body, &bad).unwrap_err();

@@ -1,4 +1,4 @@
-//! Every kind of query that the library's registry lists, asked alike: a kind that exists is tested.
+//! Every kind of query that the library's registry lists, asked alike.
 
 use pliant::{Error, Query, Scalar, Selection, World};
 use std::fmt::Debug;

@@ -1,18 +1,12 @@
-//! Edits of a body's mesh: what is taken out stays in the trees and is passed over, what comes is
-//! put into trees of its own.
+//! Edits of a body's mesh: removed triangles stay in the trees and are skipped, new ones go into
+//! trees of their own.
 //!
-//! The triangles in tree order are those of the first tree, then those of smaller ones: *parts* of
-//! the body, each over a run. Vertices are numbered as triangles first use them, whichever tree
-//! these are in, so a part that comes behind all others changes nothing in them: not a box becomes
-//! stale. A triangle that goes, or gets other corners, is marked as taken out; with other corners
-//! it comes again behind all others. What comes makes a new part together with those last parts
-//! that are not much larger, so that there are few, and each triangle is put into a tree a few
-//! times only (Bentley and Saxe 1980, *Decomposable searching problems*). When much of the first
-//! tree is out of date the whole is built anew.
-//!
-//! So an edit costs what it names and what came lately, not what there is; but for the first of a
-//! body, which makes the lists that say where triangles are, and for the one that builds the tree
-//! anew, whose cost is a small part of that of each edit before it.
+//! Triangles in tree order are runs, a **part** each: first the first tree's, then runs of smaller
+//! trees. Vertices are numbered as triangles first use them in any tree, so a new part behind all
+//! others makes no box stale. Small last parts are merged with what comes (Bentley and Saxe 1980,
+//! *Decomposable searching problems*), so each triangle is inserted a few times only. When much of
+//! the first tree is out of date, the whole is rebuilt. So an edit costs what it names and what
+//! came lately, amortised; only a body's first edit makes lists of all triangles, in O(n).
 
 use super::Body;
 use crate::bodies::build::divide;
@@ -28,19 +22,23 @@ use crate::threads::Executor;
 use crate::tree::Tree;
 use std::collections::BTreeMap;
 
-/// A part at most this many times as large as what comes is made anew with it.
+/// Factor: a part at most this many times as large as what comes is merged with it.
 const MUCH_LARGER: usize = 2;
-/// A part of at most this many triangles is made anew with whatever comes.
+/// A part of at most this many triangles is merged with whatever comes.
 const FEW: usize = 64;
-/// The tree is built anew when this part of its triangles was taken out or came behind it,
+/// Divisor: the tree is rebuilt when more than one of this many triangles was removed or came
+/// behind it.
 const OUT_OF_DATE: usize = 16;
-/// but not for so few.
+/// The most triangles out of date for which the tree is not rebuilt, however small it is.
 const FEWEST: usize = 32;
-/// A mesh of which more than this part differs is taken as another.
+/// Divisor: a mesh of which more than one of this many triangles differs is taken as another mesh.
 const MUCH: usize = 8;
 
 impl<S: Coordinate> Body<S> {
-    /// Makes all changes of an edit; or leaves the body as it is and says what was wrong.
+    /// Makes all changes of an edit. On an error the body stays as it is.
+    ///
+    /// A triangle that goes, or gets other corners, is marked as removed. With other corners it
+    /// comes again behind all others.
     pub(crate) fn apply(&mut self, edit: &Edit<S>, options: &Options) -> Result<Edited, ErrorKind> {
         let outcome = self.mesh.draft(edit, &self.shape)?;
         for &(vertex, position) in &outcome.new_vertices {
@@ -53,8 +51,9 @@ impl<S: Coordinate> Body<S> {
         Ok(edited)
     }
 
-    /// Gives the body another mesh and its shape; or leaves it as it is and says what was wrong.
-    /// What is equal by number stays.
+    /// Gives the body another mesh and its shape. On an error the body stays as it is.
+    ///
+    /// Triangles and vertices that are equal by number stay.
     pub(crate) fn set_mesh(
         &mut self,
         triangles: &[[u32; 3]],
@@ -102,7 +101,8 @@ impl<S: Coordinate> Body<S> {
         self.set_positions(positions, (instructions, executor))
     }
 
-    /// Makes changes that were found good: a part for what comes, or all anew. A motion ends.
+    /// Makes changes that were found good, as a part for what comes, or by rebuilding. A motion
+    /// ends.
     fn make(&mut self, outcome: &Outcome<S>, options: &Options) {
         let are_fewer = outcome.triangles < self.mesh.triangles().len();
         let known = self.mesh.vertex_count();
@@ -131,7 +131,8 @@ impl<S: Coordinate> Body<S> {
         }
     }
 
-    /// Puts triangles behind all others, in a part with those last ones that are not much larger.
+    /// Appends triangles behind all others, as a part that absorbs the last parts that are not much
+    /// larger.
     pub(super) fn append(&mut self, mut coming: Vec<u32>, options: &Options) {
         let order = self.mesh.order();
         let used = TreeVertex(order.used_vertices() as u32);

@@ -1,4 +1,5 @@
-//! Looking at a body: its tree cut at a level, the boxes of that, and every invariant.
+//! Views of a body for debugging: the cut of its trees at a level, the boxes of the cut, and every
+//! invariant.
 
 use super::Body;
 use crate::bodies::debug_view::NodeBox;
@@ -11,7 +12,7 @@ use crate::tree::{BoxSource, Grown};
 use std::ops::Range;
 
 impl<S: Coordinate> Body<S> {
-    /// For each triangle, as the caller numbers them, the part it is in.
+    /// Number of the part of the cut that each triangle is in, by the caller's numbers.
     pub(crate) fn tree_cut(&self, level: u32) -> Vec<u32> {
         let order = self.mesh.order().triangle_order();
         let mut part_of = vec![u32::MAX; self.mesh.triangles().len()];
@@ -25,7 +26,7 @@ impl<S: Coordinate> Body<S> {
         part_of
     }
 
-    /// The box of every part.
+    /// Box of every part of the cut.
     pub(crate) fn tree_boxes(&self, level: u32, origin: Origin) -> Vec<NodeBox<S>> {
         let positions = self.stored_positions();
         let (shape, order) = (&self.shape, self.mesh.order());
@@ -48,7 +49,7 @@ impl<S: Coordinate> Body<S> {
         parts.into_iter().zip(valid).map(node_box).collect()
     }
 
-    /// The triangles of every part of all trees, as places in tree order.
+    /// Triangles of every part of the cut through all trees, as places in tree order.
     fn parts_of_cut(&self, level: u32) -> Vec<Range<usize>> {
         let starts = self
             .parts
@@ -61,8 +62,10 @@ impl<S: Coordinate> Body<S> {
         starts.zip(ends).map(|(start, end)| start..end).collect()
     }
 
-    /// Checks the structure of the tree, and that each box that claims to be valid is the box over
-    /// the vertices below it as they are now. A sentence says what is wrong.
+    /// Checks the structure of the trees and the mesh, and that each valid box is the box of the
+    /// present vertices below it.
+    ///
+    /// An error says in a sentence what is wrong.
     pub(crate) fn validate(&self, options: &Options, origin: Origin) -> Result<(), String> {
         let (shape, order) = (&self.shape, self.mesh.order());
         let now = shape.sorted(order);

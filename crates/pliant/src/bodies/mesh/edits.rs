@@ -1,6 +1,6 @@
-//! Edits of a mesh: where triangles and vertices are in tree order, and which are gone.
+//! Edits of a mesh: places of triangles and vertices in tree order, and which are removed.
 //!
-//! The parts of the body, over which trees are, are not known here: see `body::edits`.
+//! The parts of the body, which have the trees, are not known here: see `body::edits`.
 
 use super::{BodyMesh, Edits};
 use crate::bodies::shape::BodyShape;
@@ -12,7 +12,7 @@ use crate::mesh::{Bits, Changed, Draft, EMPTY, Elements, Order, Outcome, Topolog
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-/// No place.
+/// Marks a triangle without a place in tree order.
 const NOWHERE: u32 = u32::MAX;
 
 impl<S: Copy> Edits<S> {
@@ -32,7 +32,7 @@ impl<S: Copy> Edits<S> {
         edits
     }
 
-    /// Notes the places in an order that has all triangles, and none that was taken out.
+    /// Records the places in an order that has all triangles, and no removed ones.
     fn find_places(&mut self, order: &Order) {
         self.places.fill(NOWHERE);
         for (place, &triangle) in (0..).zip(order.triangle_order()) {
@@ -48,7 +48,7 @@ impl<S: Copy> Edits<S> {
         self.without_orphans.take();
     }
 
-    /// Marks a triangle as taken out, if it has a place.
+    /// Marks a triangle as removed, if it has a place.
     fn take_out(&mut self, triangle: u32) {
         let place = std::mem::replace(&mut self.places[triangle as usize], NOWHERE);
         if place != NOWHERE {
@@ -56,7 +56,7 @@ impl<S: Copy> Edits<S> {
         }
     }
 
-    /// A shape in which vertices that are empty are where one is that is used.
+    /// Positions in which empty vertices are where a used vertex is.
     pub(super) fn patch<'p>(&'p mut self, positions: &'p [[S; 3]], order: &Order) -> &'p [[S; 3]] {
         if self.empty.count() == 0 || positions.len() != self.slots.len() {
             return positions;
@@ -72,7 +72,7 @@ impl<S: Copy> Edits<S> {
         &self.patched
     }
 
-    /// Where a vertex is in tree order.
+    /// Number of a vertex in tree order.
     fn slot(&self, vertex: u32) -> TreeVertex {
         self.slots[vertex as usize]
     }
@@ -82,8 +82,10 @@ impl<S: Copy> Edits<S> {
         self.at.of(vertex).next().is_some()
     }
 
-    /// Where the vertices are that lose their last triangle, with a vertex beside each that stays,
-    /// if there is one. In tree order `used` vertices are corners.
+    /// Vertices in tree order that lose their last triangle, each with a neighbour that stays, if
+    /// there is one.
+    ///
+    /// The first `used` vertices in tree order are corners of triangles.
     fn lost(&self, changed: &[Changed], used: usize) -> BTreeMap<TreeVertex, Option<u32>> {
         let mut lost: BTreeMap<TreeVertex, Option<u32>> = BTreeMap::new();
         for (_, [old, _]) in changed {
@@ -102,13 +104,13 @@ impl<S: Copy> Edits<S> {
 }
 
 impl<S: Coordinate> BodyMesh<S> {
-    /// Begins an edit of this mesh, which is in a world with this number.
+    /// Begins an edit of this mesh, in the world with this number.
     pub(crate) fn begin_edit(&self, world: u64) -> Edit<S> {
         let counts = [self.vertex_count(), self.triangles().len()];
         Edit::new((world, self.body, self.version), counts)
     }
 
-    /// Drafts an edit: the outcome of its steps. Refused if it is of another mesh.
+    /// Drafts an edit: the outcome of its steps. Refused if the edit is of another mesh.
     pub(crate) fn draft(
         &mut self,
         edit: &Edit<S>,
@@ -126,7 +128,7 @@ impl<S: Coordinate> BodyMesh<S> {
         draft.finish()
     }
 
-    /// The things that an edit changes. Its lists are made the first time.
+    /// Topology, order and lists that an edit changes. The lists are made the first time, in O(n).
     fn editable(&mut self) -> (&mut Topology, &mut Order, &mut Edits<S>) {
         let (topology, order) = (&mut self.topology, &mut self.order);
         let new = || Box::new(Edits::new(topology, order));
@@ -134,7 +136,7 @@ impl<S: Coordinate> BodyMesh<S> {
         (topology, order, edits)
     }
 
-    /// The changes of an edit as its caller is told of them, if there are any.
+    /// Changes of an edit as its caller is told of them, if there are any.
     pub(crate) fn said_of(&self, outcome: &Outcome<S>) -> Option<Edited> {
         let is_nothing = outcome.changed.is_empty()
             && outcome.triangles == self.triangles().len()
@@ -171,7 +173,7 @@ impl<S: Coordinate> BodyMesh<S> {
     /// Makes the changes of an edit in the caller's numbers, and nothing in tree order.
     pub(crate) fn change(&mut self, outcome: &Outcome<S>) {
         if self.edges_were_known {
-            // They have numbers, which stay.
+            // Edges have numbers, which stay.
             self.elements(&|| false);
         }
         self.version += 1;
@@ -201,8 +203,9 @@ impl<S: Coordinate> BodyMesh<S> {
         topology.set_triangle_count(outcome.triangles);
     }
 
-    /// Takes changed triangles out of tree order, and puts new vertices behind all others. Returns
-    /// the triangles that have corners now: they are still to be put in.
+    /// Takes changed triangles out of tree order, and puts new vertices behind all others.
+    ///
+    /// Returns the triangles that have corners now: they are still to be inserted.
     pub(crate) fn take_out(&mut self, outcome: &Outcome<S>, new_vertices: usize) -> Vec<u32> {
         let (_, order, edits) = self.editable();
         let slots = order.vertex_order().len() as u32..;
@@ -223,9 +226,12 @@ impl<S: Coordinate> BodyMesh<S> {
         coming
     }
 
-    /// Moves vertices that lose their last triangle to the end of tree order; they leave orphans.
-    /// These stand where vertices do that are near them in the tree, each where another does. Boxes
-    /// over nothing but orphans are as large as others, and no more of them are in one place.
+    /// Moves vertices that lose their last triangle to the end of tree order. Each leaves an orphan
+    /// at its old number.
+    ///
+    /// An orphan stands where an alias does: a vertex near it in the tree, another for each orphan.
+    /// So boxes over nothing but orphans are as large as other boxes, and no more of them are in
+    /// one place.
     pub(crate) fn leave_orphans(&mut self, changed: &[Changed], shape: &mut BodyShape<S>) {
         let (topology, order, edits) = self.editable();
         let lost = edits.lost(changed, order.used_vertices());
@@ -240,7 +246,8 @@ impl<S: Coordinate> BodyMesh<S> {
                 run = slot..slot;
             }
             run.end = slot + 1;
-            // The mirror image in the beginning of the run, in which all are lost.
+            // The vertex at the mirrored place before the beginning of the run, in which all are
+            // lost.
             let mirrored = run.start.checked_sub(1 + slot - run.start);
             let near = mirrored.map(|slot| order.caller_vertex(TreeVertex(slot)).0);
             let mut candidates = beside.into_iter().chain(near);
@@ -259,8 +266,8 @@ impl<S: Coordinate> BodyMesh<S> {
         }
     }
 
-    /// Places the vertices that come again, empties others, and takes all corners of changed
-    /// triangles into the bounds of the shape.
+    /// Places vertices that come again, empties others, and extends the bounds of the shape by all
+    /// corners of changed triangles.
     pub(crate) fn place_vertices(
         &mut self,
         outcome: &Outcome<S>,
@@ -282,7 +289,8 @@ impl<S: Coordinate> BodyMesh<S> {
         }
     }
 
-    /// Some triangles as a mesh of their own: their corners, and the positions of their vertices.
+    /// Extracts some triangles as a mesh of their own: their corners, and the positions of their
+    /// vertices.
     pub(crate) fn alone(
         &mut self,
         triangles: &[u32],
@@ -306,8 +314,9 @@ impl<S: Coordinate> BodyMesh<S> {
         )
     }
 
-    /// Puts triangles in this order at a place and behind it, where all others are forgotten. They
-    /// are the first to use vertices from `first_vertex` on.
+    /// Appends triangles in this order from a place on, after cutting off everything behind it.
+    ///
+    /// They are the first to use vertices from `first_vertex` on.
     pub(crate) fn append(
         &mut self,
         (first, first_vertex): (u32, TreeVertex),
@@ -329,12 +338,13 @@ impl<S: Coordinate> BodyMesh<S> {
         }
     }
 
-    /// Counts an order that is another.
+    /// Increases the version of the order, which has changed.
     pub(crate) fn next_order(&mut self) {
         self.order_version += 1;
     }
 
-    /// Exchanges the order. Triangles that were changed since the new one was made are not in it.
+    /// Exchanges the order. Triangles that were changed since the new one was made are taken out of
+    /// it.
     pub(crate) fn exchange_order(&mut self, order: Order, changed: &[Changed]) {
         self.order = order;
         self.order_version += 1;
@@ -353,8 +363,8 @@ impl<S: Coordinate> BodyMesh<S> {
         }
     }
 
-    /// Checks that every triangle is in the trees once, with the corners that it has, and every
-    /// vertex where it is said to be.
+    /// Checks that every triangle is in the trees once, with its corners, and every vertex at its
+    /// recorded number.
     pub(crate) fn validate(&self) -> Result<(), String> {
         let mut seen = vec![false; self.triangles().len()];
         for place in (0..self.tree_triangles() as u32).map(TreeTriangle) {

@@ -1,58 +1,62 @@
-//! How much more the tree of a body does than a fresh one would, estimated from what queries did.
+//! Decay of a body's tree: its work relative to a fresh tree's, estimated from the work of queries.
 //!
-//! What a query of triangles finds near each other, its *candidates*, does not depend on the tree,
-//! nor does how many triangles there are; how many pairs of nodes it looks at on the way does. On
-//! the scenes of this project fresh trees look at a pair of nodes for every two candidates of two
-//! bodies, and in a body that meets itself at one for five candidates and, for its neighbours, at
-//! about two for three triangles. How many these are for a triangle depends on the options and the
-//! surface: the first query with a tree that was hardly edited since it was built tells, and of two
-//! bodies how many are for a candidate. What is more than that is decay: nodes that have grown into
-//! each other, or triangles that were taken out.
+//! The number of pairs of triangles whose boxes overlap, the *candidates*, does not depend on the
+//! tree; the number of pairs of nodes tested does. On this project's scenes, fresh trees need a
+//! constant number of pairs of nodes per candidate and per triangle ([`OF_TWO`], [`OF_ONE`],
+//! [`OF_TRIANGLE`]). The constants vary with options and surface; the first query with a hardly
+//! edited tree gives factors for them. More work than that is decay: nodes that have grown into
+//! each other, or removed triangles.
 
-/// Pairs of nodes that a fresh tree looks at for each candidate of two bodies, of one with itself,
-/// and for each triangle of that.
+/// Pairs of nodes that a fresh tree tests for each candidate of two bodies: about one for two.
 const OF_TWO: f64 = 0.45;
+/// Pairs of nodes that a fresh tree tests for each candidate of a body with itself: one for five.
 const OF_ONE: f64 = 0.2;
+/// Pairs of nodes that a fresh tree of a body that meets itself tests for each triangle, about two
+/// for three, because of neighbours.
 const OF_TRIANGLE: f64 = 0.69;
 
-/// Fewer pairs of nodes say nothing.
+/// The fewest pairs of nodes that say something.
 const FEWEST: f64 = 256.0;
 
-/// A fresh tree costs as much as looking at so many pairs of nodes, for each triangle.
+/// Cost of building a fresh tree, in tests of pairs of nodes for each triangle.
 const COST: f64 = 4.0;
 
-/// While a query looks at a pair of nodes or of triangles, building looks at so many triangles: in
-/// `shuffle` what is built in a step takes up to two thirds as long as its query. Slower, the old
-/// tree decays meanwhile by more than that.
+/// Looks of building at triangles for each pair of nodes or triangles that a query tests.
+///
+/// In `shuffle` the share built in a step takes up to two thirds as long as its query. At a slower
+/// pace the old tree decays meanwhile by more than that.
 const PACE: f64 = 1.5;
 
-/// For a pair of nodes that a fresh tree would have spared in the last shape, building looks at so
-/// many triangles at most: the less a tree has decayed, the less hurry there is, and the shorter
-/// are the steps in which it is mended.
+/// The most looks of building for each pair of nodes that a fresh tree would have spared in the
+/// last shape.
+///
+/// The less a tree has decayed, the less hurry there is, and the shorter are the steps in which it
+/// is mended.
 const GAIN: f64 = 8.0;
 
-/// What looking at a body cost, and what a fresh tree would look at.
+/// Work of queries on a body, and the estimated work of a fresh tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Work {
-    /// Pairs of nodes that were looked at.
+    /// Pairs of nodes tested.
     node_pairs: u64,
-    /// And of triangles.
+    /// Pairs of triangles tested.
     candidates: u64,
-    /// Those of a fresh tree for candidates of this and another body, but for a factor,
+    /// Pairs of nodes that a fresh tree tests for candidates of this and another body, up to a
+    /// factor.
     of_two: f64,
-    /// for candidates of the body with itself,
+    /// Pairs of nodes that a fresh tree tests for candidates of the body with itself.
     of_one: f64,
-    /// and for its triangles, but for another factor.
+    /// Pairs of nodes that a fresh tree tests for the body's triangles, up to another factor.
     of_triangles: f64,
 }
 
 impl Work {
-    /// Pairs of nodes and of triangles that were looked at.
+    /// Pairs of nodes and of triangles tested.
     fn all(&self) -> f64 {
         (self.node_pairs + self.candidates) as f64
     }
 
-    /// Of two bodies.
+    /// Work of a query on two bodies.
     pub(crate) fn of_two(node_pairs: u64, candidates: u64) -> Self {
         Self {
             node_pairs,
@@ -62,7 +66,7 @@ impl Work {
         }
     }
 
-    /// Of a body of so many triangles with itself.
+    /// Work of a query on a body of `triangles` triangles with itself.
     pub(crate) fn of_one(node_pairs: u64, candidates: u64, triangles: usize) -> Self {
         Self {
             node_pairs,
@@ -77,11 +81,11 @@ impl Work {
 /// Pairs of nodes that a fresh tree would have spared.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spared {
-    /// Since this one was built.
+    /// Pairs spared since the present tree was built.
     since_built: f64,
-    /// In the last shape alone.
+    /// Pairs spared in the last shape alone.
     in_last_shape: f64,
-    /// Of all pairs of nodes and of triangles that were looked at in the last shape.
+    /// Pairs of nodes and of triangles tested in the last shape.
     looked_at: f64,
 }
 
@@ -95,31 +99,31 @@ impl Spared {
         (PACE * self.looked_at).min(GAIN * self.in_last_shape) as usize
     }
 
-    /// Whether a fresh tree of so many triangles would have paid by now.
+    /// Whether a fresh tree of `triangles` triangles would have paid by now.
     pub(super) fn is_worth_building(&self, triangles: usize) -> bool {
         self.since_built > COST * triangles as f64
     }
 }
 
-/// What queries did with the tree of a body since it was built.
+/// Record of the work of queries with the tree of a body since it was built.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Decay {
-    /// In the shape of now, or in the last in which somebody looked.
+    /// Work in the present shape, or in the last one that was queried, and its version.
     last: Work,
     version: u64,
-    /// Whether the tree was hardly edited then, and tells what a fresh one does.
+    /// Whether the tree was hardly edited then, and so tells what a fresh one does.
     is_hardly_edited: bool,
-    /// Factors for triangles, and for candidates of two bodies; none before a query that says
+    /// Factors for triangles, and for candidates of two bodies. None before a query that says
     /// something.
     for_triangles: Option<f64>,
     for_two: Option<f64>,
-    /// Pairs of nodes that a fresh tree would have spared, of all shapes before.
+    /// Pairs of nodes that a fresh tree would have spared, in all earlier shapes.
     spared: f64,
 }
 
 impl Decay {
-    /// A body was looked at, in a version of its shape; its tree was hardly edited since it was
-    /// built, or was.
+    /// Notes the work of a query in a version of the shape, and whether the tree was hardly edited
+    /// since it was built.
     pub(crate) fn note(&mut self, work: Work, version: u64, is_hardly_edited: bool) {
         if self.version != version {
             self.settle();
@@ -133,11 +137,11 @@ impl Decay {
         self.last.of_triangles += work.of_triangles;
     }
 
-    /// What was done in the last shape counts as done.
+    /// Adds the work of the last shape to the record.
     fn settle(&mut self) {
         let last = self.last;
         let node_pairs = last.node_pairs as f64;
-        // What was edited has decayed already.
+        // An edited tree has decayed already.
         if self.is_hardly_edited && last.of_triangles >= FEWEST {
             let rest = (node_pairs - last.of_one - last.of_two).max(0.0);
             self.for_triangles.get_or_insert(rest / last.of_triangles);
@@ -150,7 +154,7 @@ impl Decay {
         self.last = Work::default();
     }
 
-    /// What a fresh tree would have looked at in the last shape, if that is known.
+    /// Estimated pairs of nodes of a fresh tree in the last shape, if the factors are known.
     fn expected(&self) -> Option<f64> {
         let last = self.last;
         let of_two = self.for_two.unwrap_or(1.0) * last.of_two;
@@ -162,14 +166,14 @@ impl Decay {
         (expected >= FEWEST && last.node_pairs as f64 >= FEWEST).then_some(expected)
     }
 
-    /// How many pairs of nodes are looked at for one that a fresh tree would; 1 before anything is
+    /// Pairs of nodes tested for each that a fresh tree would test. It is 1 before anything is
     /// known.
     pub(crate) fn quality(&self) -> f64 {
         let expected = self.expected();
         expected.map_or(1.0, |expected| self.last.node_pairs as f64 / expected)
     }
 
-    /// What a fresh tree would have spared by now. A shape is over.
+    /// Ends a shape, and returns what a fresh tree would have spared by now.
     pub(crate) fn spared(&mut self) -> Spared {
         let looked_at = self.last.all();
         let before = self.spared;
@@ -181,7 +185,7 @@ impl Decay {
         }
     }
 
-    /// The tree is another, of the same kind: the factors stay.
+    /// Begins anew with an exchanged tree of the same kind: the factors stay.
     pub(crate) fn begin_anew(&mut self) {
         self.last = Work::default();
         self.spared = 0.0;
@@ -197,7 +201,7 @@ mod tests {
         let mut decay = Decay::default();
         assert_eq!(decay.quality(), 1.0);
         let is = |found: f64, expected: f64| (found - expected).abs() < 1e-6;
-        // What was edited does not tell what a fresh tree does.
+        // An edited tree does not tell what a fresh tree does.
         decay.note(Work::of_one(14_400, 1_000, 10_000), 7, false);
         assert_eq!(decay.quality(), 1.0);
         decay.note(Work::of_one(7_200, 1_000, 10_000), 1, true);

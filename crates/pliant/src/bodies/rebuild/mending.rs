@@ -1,7 +1,7 @@
-//! A tree that is being built beside the one that a body has: how far it has come.
+//! Building of a tree beside the present one of a body, in stages that stop when a budget is spent.
 //!
-//! It is of the mesh at its beginning. What is edited meanwhile is noted with the corners that it
-//! had.
+//! The tree is of the mesh at its beginning. Triangles that are edited meanwhile are noted with the
+//! corners that they had.
 
 use crate::held::{self, Held};
 use crate::ids::TreeVertex;
@@ -11,19 +11,19 @@ use crate::tree::build::{Balanced, Plan, Planner, Split};
 use crate::tree::{NeighboursBuilder, Tree, TreeBuilder};
 use std::collections::BTreeMap;
 
-/// How its triangles are divided.
+/// Rule by which triangles are divided.
 pub(crate) type Rule = Box<dyn Split + Send + Sync>;
 
-/// The mesh that a tree is built of: that of the body, but for what was edited since.
+/// Mesh that a tree is built of: the body's mesh without the edits made since the beginning.
 pub(crate) struct MeshThen {
     vertices: usize,
-    /// The corners then of all triangles that were edited since, as the caller numbers them; no
-    /// corners of those that are new.
+    /// Corners at the beginning of all triangles that were edited since, by the caller's numbers.
+    /// New ones have no corners.
     edited: BTreeMap<u32, [u32; 3]>,
 }
 
 impl MeshThen {
-    /// That of now, of so many vertices.
+    /// The present mesh, with `vertices` vertices.
     pub(crate) fn new(vertices: usize) -> Self {
         Self {
             vertices,
@@ -35,13 +35,13 @@ impl MeshThen {
         self.vertices
     }
 
-    /// The corners of a triangle then, where all have these now.
+    /// Corners of a triangle at the beginning, where `now` has the present corners of all.
     fn corners(&self, triangle: u32, now: &[[u32; 3]]) -> [u32; 3] {
         let edited = self.edited.get(&triangle).copied();
         edited.unwrap_or_else(|| now[triangle as usize])
     }
 
-    /// What is another triangle now, by number.
+    /// Triangles whose corners differ from the beginning, by number.
     pub(crate) fn changed(&self, now: &[[u32; 3]]) -> Vec<Changed> {
         let edited = self.edited.iter();
         let both = edited.map(|(&triangle, &then)| (triangle, [then, now[triangle as usize]]));
@@ -49,39 +49,42 @@ impl MeshThen {
     }
 }
 
-/// A tree that is being built.
+/// Tree that is being built.
 pub(crate) struct Mending {
     mesh: MeshThen,
     stage: Stage,
 }
 
-/// The midpoint of a triangle in the shape of now, by its place among those whose midpoints are
-/// asked for, and its corners as the caller numbers vertices.
+/// Midpoint of a triangle in the present shape.
+///
+/// Arguments are its place among the triangles whose midpoints are asked for, and its corners with
+/// the caller's numbers.
 pub(crate) type MidpointOf<'m> = &'m dyn Fn(usize, [u32; 3]) -> [f64; 3];
 
 enum Stage {
-    /// The midpoints of these triangles, as the caller numbers them, are looked up, for a balanced
-    /// tree of some degree and size of leaves.
+    /// Midpoints of these triangles are looked up, for a balanced tree of some degree and size of
+    /// leaves. Numbers are the caller's.
     Looking(Vec<u32>, Vec<[f64; 3]>, (usize, u32)),
-    /// These triangles, as the caller numbers them, are divided.
+    /// Triangles with these caller's numbers are divided.
     Dividing(Planner<Rule>, Vec<u32>),
     /// Triangles and vertices get their numbers in tree order.
     Ordering(Plan, OrderBuilder),
     /// The vertices below all nodes are found.
     Growing(Plan, Order, TreeBuilder),
-    /// Which triangles share a vertex is found, for a body that meets itself.
+    /// Pairs of triangles that share a vertex are found, for a body that meets itself.
     Meeting(Order, Tree, NeighboursBuilder),
     Done(Order, Tree),
 }
 
-/// Looks at a triangle that its midpoint takes, and triangles between two looks at the budget.
+/// Looks at a triangle that computing its midpoint costs.
 const LOOKS: usize = 4;
+/// Triangles between two looks at the budget.
 const AT_ONCE: usize = 256;
-/// Looks at a triangle where all of them are gone through once more.
+/// Looks at a triangle in a pass over all of them.
 const ONCE_MORE: usize = 1;
 
 impl Mending {
-    /// A balanced tree of these triangles, of some degree and size of leaves.
+    /// Begins a balanced tree of these triangles, of some degree and size of leaves.
     pub(crate) fn balanced(
         mesh: MeshThen,
         numbers: Vec<u32>,
@@ -92,21 +95,23 @@ impl Mending {
         Self { mesh, stage }
     }
 
-    /// By a rule for so many triangles, which have these numbers.
+    /// Begins a tree whose triangles, with these numbers, a planner divides.
     pub(crate) fn by_rule(mesh: MeshThen, planner: Planner<Rule>, numbers: Vec<u32>) -> Self {
         let stage = Stage::Dividing(planner, numbers);
         Self { mesh, stage }
     }
 
-    /// Triangles of the body are edited.
+    /// Notes that triangles of the body are edited.
     pub(crate) fn note(&mut self, changed: &[Changed]) {
         for &(triangle, [then, _]) in changed {
             self.mesh.edited.entry(triangle).or_insert(then);
         }
     }
 
-    /// Goes on, with the corners that all triangles have now. Whether which triangles share a
-    /// vertex is to be found, too, is asked when it comes to that.
+    /// Continues until the budget is spent. `now` has the present corners of all triangles.
+    ///
+    /// `knows_neighbours` says whether to find triangles that share a vertex, too. It matters when
+    /// that stage is reached.
     pub(crate) fn advance(
         mut self,
         now: &[[u32; 3]],
@@ -135,7 +140,7 @@ impl Mending {
 }
 
 impl Stage {
-    /// Goes on with this stage, and comes to the next if it is done.
+    /// Continues this stage, and returns the next one if it is done.
     fn advance(
         self,
         mesh: &MeshThen,
@@ -204,7 +209,7 @@ impl Stage {
     }
 }
 
-/// Of the map what it has, without its nodes.
+/// Entries of the map, without its nodes.
 impl Held for MeshThen {
     fn held(&self) -> usize {
         self.edited.len() * size_of::<(u32, [u32; 3])>()

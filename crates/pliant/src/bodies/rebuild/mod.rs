@@ -1,20 +1,17 @@
-//! Trees that mend themselves: a body whose tree has decayed is given a fresh one, which is built
-//! some at a time beside it.
+//! Mending of trees: a body whose tree has decayed gets a fresh one, built beside it a share at a
+//! time.
 //!
-//! ```text
-//! each new shape of the body:
-//!     no tree is on its way:   begin one, if by now a fresh tree would have spared what it costs   (rent, then buy)
-//!     a tree is on its way:    build a share of it, in proportion to what the last query did and a fresh tree would have spared
-//!     it is done:              exchange the trees
-//! ```
+//! Each new shape of a body does one of three things (rent, then buy):
 //!
-//! The tree is that of the mesh and the shape of some steps before. For the shape that is as good.
-//! What was edited meanwhile follows as an edit does (`body::edits`): what is gone is marked in the
-//! new tree, what has come is put behind it. No answer depends on a tree. A tree along the mesh
-//! would be the same again, so it is not mended.
+//! - No tree is being built: begin one, if a fresh tree would have spared by now as much as it
+//!   costs.
+//! - A tree is being built: build a share, in proportion to the last query's work and to what a
+//!   fresh tree would have spared.
+//! - The tree is done: exchange the trees.
 //!
-//! What goes through all triangles at once is not divided: listing them, the first cuts, and
-//! exchanging the trees.
+//! The new tree is of the mesh and the shape of some steps before; for the shape that is as good.
+//! Edits made meanwhile are applied as to any tree (`body::edits`). No answer depends on a tree.
+//! Connectivity trees are not mended, because a rebuilt one would be the same.
 
 mod decay;
 mod mending;
@@ -33,17 +30,17 @@ pub(crate) use decay::Work;
 use mending::{Mending, MeshThen, Rule};
 use std::borrow::Cow;
 
-/// How far the tree of a body has decayed, and the one that is to take its place.
+/// State of mending: decay of the body's tree, and the tree that is being built to replace it.
 #[derive(Default)]
 pub(crate) struct Rebuild {
-    /// How much more the tree does than a fresh one would.
+    /// Extra work of the present tree, estimated.
     decay: Decay,
-    /// The tree that is being built beside it.
+    /// Tree that is being built beside it.
     mending: Option<Box<Mending>>,
 }
 
 impl Rebuild {
-    /// Copies how far the tree has decayed; no other is being built.
+    /// Copies the decay of the tree. No other tree is being built in the copy.
     pub(crate) fn copy(&self) -> Self {
         Self {
             decay: self.decay,
@@ -51,35 +48,39 @@ impl Rebuild {
         }
     }
 
-    /// Notes what queries did in a version of the shape. A tree that was hardly edited tells what a
-    /// fresh one does.
+    /// Notes the work of queries in a version of the shape. A hardly edited tree tells what a fresh
+    /// one does.
     pub(crate) fn note_work(&mut self, work: Work, version: u64, is_hardly_edited: bool) {
         self.decay.note(work, version, is_hardly_edited);
     }
 
-    /// The pairs of nodes that are looked at for each that a fresh tree would look at.
+    /// Factor by which the tree looks at more pairs of nodes than a fresh tree would.
     pub(crate) fn quality(&self) -> f64 {
         self.decay.quality()
     }
 
-    /// Notes an edit of the mesh, after which there are fewer numbers of triangles or not.
+    /// Notes an edit of the mesh. `are_fewer` says whether there are fewer numbers of triangles
+    /// after it.
     pub(crate) fn note_edit(&mut self, changed: &[Changed], are_fewer: bool) {
         if are_fewer {
-            // A tree that is being built has numbers that are no more.
+            // The tree that is being built has numbers that no longer exist.
             self.mending = None;
         } else if let Some(mending) = &mut self.mending {
             mending.note(changed);
         }
     }
 
-    /// Begins anew, with a tree that is another.
+    /// Begins anew, with an exchanged tree.
     pub(crate) fn begin_anew(&mut self) {
         self.decay.begin_anew();
         self.mending = None;
     }
 
-    /// Goes on with mending, or begins it where it pays. Returns the tree that is to take the
-    /// other's place, if it is done: with its order, and the triangles that were edited since.
+    /// Continues to build the tree, or begins to where it pays.
+    ///
+    /// Returns the finished tree, with its order and the triangles that were edited since it was
+    /// begun. Three steps go through all triangles at once and are not divided: listing them, the
+    /// first cuts, and exchanging the trees.
     pub(crate) fn advance<S: Coordinate>(
         &mut self,
         mesh: &BodyMesh<S>,
@@ -118,9 +119,9 @@ impl Rebuild {
     }
 }
 
-/// Begins a tree of the current mesh and shape.
+/// Begins a tree of the present mesh and shape.
 fn begin<S: Coordinate>(mesh: &BodyMesh<S>, shape: &BodyShape<S>, options: &Options) -> Mending {
-    // In the order of the tree, in which corners lie near each other.
+    // In tree order, in which corners lie near each other.
     let mut numbers = Vec::with_capacity(mesh.topology().live_count());
     numbers.extend(mesh.still_there(0..mesh.tree_triangles() as u32));
     let then = MeshThen::new(mesh.vertex_count());

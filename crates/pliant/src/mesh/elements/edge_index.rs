@@ -1,4 +1,4 @@
-//! Which edges triangles have, for a mesh that is edited.
+//! Index of the edges of each triangle, for a mesh that is edited.
 
 use crate::held::{self, held};
 use crate::ids::CallerTriangle;
@@ -6,27 +6,29 @@ use crate::mesh::edges::{firsts_of, number_of, sides};
 use crate::mesh::{Bits, Topology, TrianglesAt};
 use std::collections::BTreeSet;
 
-/// The ends of a number that no edge has.
+/// Ends of an empty number: the sentinel for no edge.
 pub(crate) const NO_EDGE: [u32; 2] = [u32::MAX; 2];
 
-/// The number of no edge: there are fewer.
+/// Sentinel: no number of an edge, for there are fewer.
 pub(super) const UNSEEN: u32 = u32::MAX;
 
-/// Which edges triangles have, and where edges are.
+/// Edges of each triangle, and the place of each edge in tree order.
 #[derive(Clone, Debug)]
 pub(super) struct EdgeIndex {
-    /// For each of the caller's triangles the edges that begin at its corners; [`UNSEEN`] where two corners are one vertex.
+    /// For each of the caller's triangles the edges that begin at its corners; [`UNSEEN`] where two
+    /// corners are one vertex.
     pub(super) of_triangles: Vec<[u32; 3]>,
-    /// For each of the caller's edges its number in tree order.
+    /// Number in tree order of each of the caller's edges.
     pub(super) tree_edges: Vec<u32>,
-    /// The caller's numbers that are empty.
+    /// Caller's numbers of edges that are empty.
     pub(super) free: BTreeSet<u32>,
-    /// In tree order, those that are edges no more.
+    /// Numbers in tree order that are edges no more.
     pub(super) gone: Bits,
 }
 
 impl EdgeIndex {
-    /// Of edges that are sorted. Cost: linear.
+    /// Builds the index from sorted edges. Cost: linear, apart from a binary search among the edges
+    /// at a vertex.
     pub(super) fn new(callers: &[[u32; 2]], numbers: &[u32], topology: &Topology) -> Self {
         let firsts = firsts_of(callers, topology.vertex_count());
         let number = |ends: [u32; 2]| number_of(callers, &firsts, ends).unwrap_or(UNSEEN);
@@ -45,7 +47,7 @@ impl EdgeIndex {
         }
     }
 
-    /// The edge with these ends, of the triangles at a vertex whose edges are known.
+    /// Finds the edge with these ends among the known edges of the triangles at its first end.
     pub(super) fn find(
         &self,
         at: &TrianglesAt,

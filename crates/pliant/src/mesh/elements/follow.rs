@@ -1,8 +1,9 @@
-//! Edges of a mesh that is edited.
+//! Stable numbers of edges in a mesh that is edited.
 //!
-//! An edge that stays keeps its number; one that goes leaves its number empty; one that comes has the lowest empty number, else the next. In
-//! tree order what belongs to triangles stays where it is, be these triangles taken out or not: an edge that a triangle of now has may belong
-//! to one that was taken out. What comes belongs to the triangles that come, behind all others.
+//! An edge that stays keeps its number; a removed one leaves its number empty. A new edge takes the
+//! lowest empty number, else the next. In tree order, elements stay with their triangle, even if it
+//! is removed. So an edge of a live triangle may belong to a removed one. New elements belong to
+//! the new triangles, which come behind all others.
 
 use super::Elements;
 use super::edge_index::{EdgeIndex, NO_EDGE, UNSEEN};
@@ -11,31 +12,33 @@ use crate::mesh::edges::sides;
 use crate::mesh::{Bits, Order, Topology, TrianglesAt};
 use std::collections::BTreeMap;
 
-/// A triangle that an edit changes: its number, its corners before and after.
+/// Triangle that an edit changes: its number, its corners before and after.
 pub(crate) type Changed = (u32, [[u32; 3]; 2]);
 
 impl Elements {
-    /// Whether an edge in tree order is one no more.
+    /// Whether a number in tree order is an edge no more.
     #[inline]
     pub(crate) fn is_gone(&self, tree_edge: u32) -> bool {
         let index = self.index.as_ref();
         index.is_some_and(|index| index.gone.has(tree_edge))
     }
 
-    /// Whether it follows edits.
+    /// Whether edits are followed.
     pub(crate) fn follows(&self) -> bool {
         self.index.is_some()
     }
 
-    /// Makes ready to follow edits; of a mesh that is going to be edited.
+    /// Builds the index that follows edits, unless it is there.
     pub(crate) fn begin_to_follow(&mut self, topology: &Topology) {
         let (callers, numbers) = (&self.callers, &self.numbers);
         self.index
             .get_or_insert_with(|| Box::new(EdgeIndex::new(callers, numbers, topology)));
     }
 
-    /// Numbers the edges, which are sorted, as these are: the same ones, with numbers that are empty among them. Returns false, and
-    /// changes nothing, if they are not.
+    /// Renumbers the sorted edges as `edges` has them: the same edges, with empty numbers among
+    /// them.
+    ///
+    /// Returns false, and changes nothing, if the edges differ or edits are followed already.
     pub(crate) fn renumber(&mut self, edges: &[[u32; 2]], topology: &Topology) -> bool {
         let is_edge = |&(_, ends): &(u32, &[u32; 2])| *ends != NO_EDGE;
         let mut named: Vec<(u32, &[u32; 2])> = (0..).zip(edges).filter(is_edge).collect();
@@ -66,7 +69,8 @@ impl Elements {
         true
     }
 
-    /// Triangles were changed; the mesh is as it is now. In tree order nothing has moved.
+    /// Updates the edges after triangles changed. `topology` and `at` are of the changed mesh;
+    /// nothing has moved in tree order.
     pub(crate) fn follow(&mut self, changed: &[Changed], topology: &Topology, at: &TrianglesAt) {
         let Some(index) = &mut self.index else {
             return;
@@ -115,7 +119,10 @@ impl Elements {
         index.of_triangles.truncate(topology.triangles().len());
     }
 
-    /// The triangles in tree order from a place on are others now: what belonged to them belongs to these, but for those that are gone.
+    /// Assigns elements to the triangles from `first` on, which were replaced in tree order.
+    ///
+    /// Elements that belonged to the replaced triangles belong to these, unless they are gone. The
+    /// triangles before use `used_before` vertices.
     pub(crate) fn append(
         &mut self,
         order: &Order,
@@ -138,19 +145,28 @@ impl Elements {
         self.ends.truncate(first_edge as usize);
         self.numbers.truncate(first_edge as usize);
         self.firsts.truncate(first.index());
-        // Nobody stops it.
-        let _ = self.give_to_triangles(order, first, used_before, &|| false, |at, side, next| {
+        let EdgeIndex {
+            of_triangles,
+            tree_edges,
+            ..
+        } = &mut *index;
+        let numbers = |at: TreeTriangle| {
             if gone_triangles.has(at.0) {
-                return None;
+                return [None; 3];
             }
-            let number = index.of_triangles[order.caller_triangle(at).index()][side];
-            let known = index.tree_edges.get_mut(number as usize)?;
+            let edges = of_triangles[order.caller_triangle(at).index()];
+            edges.map(|number| Some(number).filter(|&number| number != UNSEEN))
+        };
+        let is_new = |number: u32, next| {
+            let known = &mut tree_edges[number as usize];
             let is_new = *known == UNSEEN;
             if is_new {
                 *known = next;
             }
-            is_new.then_some(number)
-        });
+            is_new
+        };
+        // Nobody stops it.
+        let _ = self.give_to_triangles(order, first, used_before, &|| false, numbers, is_new);
         self.index = Some(index);
     }
 }

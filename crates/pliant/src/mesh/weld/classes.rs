@@ -1,28 +1,29 @@
-//! Vertices that become one, and which of them may not: corners of one triangle.
+//! Union-find over welded vertices, and which of them may not be welded: corners of one triangle.
 
-use crate::mesh::components::leader;
+use crate::mesh::components::find_root;
 use crate::mesh::edges::each_edge;
 use std::collections::BTreeSet;
 
-/// The place of a vertex that is not among them.
+/// Sentinel: a vertex that is at none of the edges.
 const NO_PLACE: u32 = u32::MAX;
 
-/// The vertices at some edges, by which of them have become one. Those that share a triangle never do.
+/// Union-find over the vertices at some edges, with conflicts: vertices that share a triangle are
+/// never united.
 pub(super) struct Classes {
-    /// The vertices, in order.
+    /// Vertices at the edges, ascending.
     vertices: Vec<u32>,
-    /// For each of all vertices its place there, if it has one.
+    /// For each vertex of the mesh its place in `vertices`, or [`NO_PLACE`].
     places: Vec<u32>,
-    /// By place: another of those that are one, or itself if it stands for them: union-find, with paths halved.
-    next: Vec<u32>,
-    /// Of those that stand for others: the lowest of them, and which have a triangle in common with one of them, so that they may not
-    /// become one.
+    /// Union-find parent of each place; a root is its own parent.
+    parents: Vec<u32>,
+    /// Lowest place of the set of each root.
     lowest: Vec<u32>,
+    /// For each root the roots that it may not be united with: they share a triangle with it.
     conflicts: Vec<BTreeSet<u32>>,
 }
 
 impl Classes {
-    /// Of the ends of some edges; `None` if `stop` said so on the way.
+    /// Begins with each end of an edge in a set of its own. Returns `None` if `stop` returned true.
     pub(super) fn new(
         triangles: &[[u32; 3]],
         count: usize,
@@ -48,7 +49,7 @@ impl Classes {
             }
         })?;
         Some(Self {
-            next: all.clone().collect(),
+            parents: all.clone().collect(),
             lowest: all.collect(),
             vertices,
             places,
@@ -56,19 +57,19 @@ impl Classes {
         })
     }
 
-    /// The place that stands for a vertex.
+    /// Returns the union-find root of a vertex.
     fn of(&mut self, vertex: u32) -> u32 {
-        leader(&mut self.next, self.places[vertex as usize])
+        find_root(&mut self.parents, self.places[vertex as usize])
     }
 
-    /// Whether the ends of two sides, one by one, are not all one and may become it. What they may not, they never may.
+    /// Whether two sides, end by end, may be welded and are not yet. Once it is false it stays so.
     pub(super) fn may_join(&mut self, [a, b]: [u32; 2], [x, y]: [u32; 2]) -> bool {
         let [a, b, x, y] = [a, b, x, y].map(|vertex| self.of(vertex));
         let may = |one: u32, other: u32| !self.conflicts[one as usize].contains(&other);
         [a, b] != [x, y] && may(a, x) && may(b, y)
     }
 
-    /// Makes the ends of two sides one, if they may be. Returns whether they are.
+    /// Welds two sides, end by end, if they may be. Returns whether their ends are one now.
     pub(super) fn join(&mut self, [a, b]: [u32; 2], [x, y]: [u32; 2]) -> bool {
         if self.may_join([a, b], [x, y]) {
             self.make_one(a, x);
@@ -77,12 +78,13 @@ impl Classes {
         self.of(a) == self.of(x) && self.of(b) == self.of(y)
     }
 
+    /// Unites the sets of two vertices.
     fn make_one(&mut self, a: u32, b: u32) {
         let [a, b] = [self.of(a), self.of(b)];
         if a == b {
             return;
         }
-        // The fewer are told that they have another name now.
+        // Smaller to larger: the root with fewer conflicts is renamed in the conflicts of others.
         let is_more = self.conflicts[a as usize].len() >= self.conflicts[b as usize].len();
         let (kept, gone) = if is_more { (a, b) } else { (b, a) };
         for other in std::mem::take(&mut self.conflicts[gone as usize]) {
@@ -91,12 +93,12 @@ impl Classes {
             of_other.insert(kept);
             self.conflicts[kept as usize].insert(other);
         }
-        self.next[gone as usize] = kept;
+        self.parents[gone as usize] = kept;
         let lowest = self.lowest[gone as usize].min(self.lowest[kept as usize]);
         self.lowest[kept as usize] = lowest;
     }
 
-    /// Pairs of the lowest of those that are one and another of them, sorted by the other.
+    /// Pairs of the lowest vertex of a set and another of it, sorted by the other.
     pub(super) fn pairs(&mut self) -> Vec<[u32; 2]> {
         let mut pairs = Vec::new();
         for place in 0..self.vertices.len() {

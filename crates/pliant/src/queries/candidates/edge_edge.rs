@@ -1,4 +1,4 @@
-//! Edges near edges.
+//! Candidates of edges and edges.
 
 use super::hit::EdgeEdge;
 use super::{Candidates, keep};
@@ -9,13 +9,13 @@ use crate::queries::near::runs::{RUNS_AT_ONCE, RunPairs, near_runs};
 use crate::queries::near::{Which, groups};
 use crate::queries::{Batch, CallerIds, FoundBy, Kind, LeafTest, Needs, shows_hits};
 
-/// Edges whose boxes are near each other.
+/// Kind of query: pairs of edges whose boxes are near each other.
 pub(crate) type EdgeEdgeCandidates<S> = Candidates<EdgeEdge, S>;
 
 impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
     type Scalar = S;
     type Hit = EdgeEdge;
-    /// Edges in tree order.
+    /// Two edges in tree order.
     type TreeHit = [u32; 2];
     type Buffers = ();
 
@@ -83,7 +83,8 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
     fn to_caller(&self, ids: &CallerIds, hit: [u32; 2]) -> EdgeEdge {
         let [body_a, body_b] = ids.bodies;
         let [a, b] = Self::of_caller(ids, hit);
-        // In one body the smaller edge is first. Which one that is cannot be predicted.
+        // In one body the smaller edge is first. A branch on which one that is could not be
+        // predicted.
         let [edge_a, edge_b] = if body_a == body_b {
             [a.min(b), a.max(b)]
         } else {
@@ -99,7 +100,7 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
 }
 
 impl<S> EdgeEdgeCandidates<S> {
-    /// Whether the second edge is the first of the two as the caller numbers edges.
+    /// Whether the caller's numbers put the second edge before the first.
     #[inline]
     pub(crate) fn is_swapped(ids: &CallerIds, hit: [u32; 2]) -> bool {
         let [a, b] = Self::of_caller(ids, hit);

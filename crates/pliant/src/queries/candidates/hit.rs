@@ -1,4 +1,4 @@
-//! Candidates, as callers get them: a vertex and a triangle, or two edges.
+//! Candidates as callers get them: a vertex and a triangle, or two edges.
 
 use crate::ids::BodyId;
 use crate::sort::{Hit, Numbered};
@@ -8,13 +8,13 @@ use crate::sort::{Hit, Numbered};
 /// Ordered by its fields: the vertex first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct VertexTriangle {
-    /// The body of the vertex.
+    /// Body of the vertex.
     pub vertex_body: BodyId,
-    /// The vertex, as the caller numbers it.
+    /// Vertex, with the caller's number.
     pub vertex: u32,
-    /// The body of the triangle; the same in a body that meets itself.
+    /// Body of the triangle. It equals `vertex_body` in a body that meets itself.
     pub triangle_body: BodyId,
-    /// The triangle, as the caller numbers it.
+    /// Triangle, with the caller's number.
     pub triangle: u32,
 }
 
@@ -52,17 +52,18 @@ impl Hit for VertexTriangle {
 
 /// Two edges near each other that have no end in common, of two bodies or of one.
 ///
-/// Ordered by its fields. The smaller (body, edge) is first; but of two bodies that the query names, the one that is named first.
+/// Ordered by its fields. The smaller (body, edge) is first. But if the query names two bodies, the
+/// one named first is first.
 /// [`World::edges`](crate::World::edges) numbers edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct EdgeEdge {
-    /// The first body.
+    /// Body of the first edge.
     pub body_a: BodyId,
-    /// Its edge.
+    /// First edge, as [`World::edges`](crate::World::edges) numbers edges.
     pub edge_a: u32,
-    /// The second body; the first again in a body that meets itself.
+    /// Body of the second edge. It equals `body_a` in a body that meets itself.
     pub body_b: BodyId,
-    /// Its edge.
+    /// Second edge, as [`World::edges`](crate::World::edges) numbers edges.
     pub edge_b: u32,
 }
 

@@ -1,13 +1,12 @@
-//! Candidates within a margin: vertices and triangles, and edges and edges, whose boxes are near each other, now or on the way.
+//! Candidates within a margin: pairs of elements whose boxes are near each other, now or during a
+//! motion.
 //!
-//! The box of an element is the hull of its corners, at both ends of the motion if its body has one. Two elements are a candidate if on
-//! every axis the gap of their boxes is at most 2 r, in real arithmetic on the numbers given, and they have no vertex in common. So r is
-//! a margin round each element, and two are found that are within 2 r of each other (Li et al. 2020, Incremental Potential Contact).
-//!
-//! The tree has boxes of the same hulls, grown by r, in a set of its own. Every vertex and every edge belongs to one triangle
-//! (`mesh::Elements`), in whose leaf it is looked for; as a leaf's box holds what belongs to it, leaves that hold a candidate are found,
-//! adjacent ones included. So an element pair comes up once, in the one pair of runs of up to eight triangles that its two belong to.
-//! `near` has the boxes of what belongs to a run, `kernels::gaps` compares them eight at a time, and few are left to exact arithmetic.
+//! Elements are a vertex and a triangle, or two edges. A margin r round each finds pairs within 2 r
+//! of each other (Li et al. 2020, Incremental Potential Contact). The tree has a set of boxes that
+//! hold positions and ends of motions, grown by r. Every vertex and edge belongs to one triangle
+//! (`mesh::Elements`), so a pair comes up in one pair of leaves, adjacent leaves included. `near`
+//! has the boxes of the elements of leaves, `kernels::gaps` compares eight at a time, and few are
+//! left to exact arithmetic.
 
 mod edge_edge;
 mod hit;
@@ -23,7 +22,19 @@ pub use hit::{EdgeEdge, VertexTriangle};
 use std::marker::PhantomData;
 pub(crate) use vertex_triangle::VertexTriangleCandidates;
 
-/// Two elements whose boxes are within a margin of each other; `E` is what the caller gets of them.
+/// Kind of query: pairs of elements whose boxes are within a margin of each other. `E` is the
+/// caller's hit.
+///
+/// The box of an element is the hull of its corners, at both ends of the motion if its body has
+/// one. Two elements are a candidate if two conditions hold, in real arithmetic on the numbers
+/// given:
+///
+/// - on every axis the gap of their boxes is at most 2 r, and
+/// - they have no vertex in common.
+///
+/// As a leaf's box holds the elements that belong to it, leaves that hold a candidate are found. A
+/// pair of elements comes up once, in the one pair of runs of up to eight triangles that its two
+/// belong to.
 #[derive(Debug)]
 pub(crate) struct Candidates<E, S> {
     margin: Margin,
@@ -37,8 +48,11 @@ impl<E, S> Candidates<E, S> {
     }
 }
 
-/// Keeps those of some pairs of elements that are candidates, and counts them. Bits of two masks say which are possibly near each other
-/// and which surely. `meet`, if there are groups, says whether theirs let them; `holds` decides exactly, and is asked only about others.
+/// Appends the pairs of two masks that are candidates, and counts them.
+///
+/// `near` marks pairs that are possibly near each other, `sure` pairs that surely are. `meet`, if
+/// there are groups or removed triangles, says whether a pair counts. `holds` decides exactly, and
+/// is asked only about the unsure.
 #[inline(always)]
 fn keep(
     [mut near, sure]: [u64; 2],
@@ -60,7 +74,7 @@ fn keep(
     found.hits.room().push_bits(near, pair);
 }
 
-/// A mask without those bits of a part of it of which `keeps` does not say so.
+/// Clears the bits of `mask` that are in `part` and for which `keeps` returns false.
 fn only(mut mask: u64, mut part: u64, keeps: impl Fn(u32) -> bool) -> u64 {
     while part != 0 {
         let bit = part.trailing_zeros();
@@ -72,17 +86,18 @@ fn only(mut mask: u64, mut part: u64, keeps: impl Fn(u32) -> bool) -> u64 {
     mask
 }
 
-/// How near is near.
+/// Margin round elements: the gap of boxes that is near enough.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Margin {
-    /// The gap of boxes that is small enough; perhaps infinite.
+    /// Largest gap of a candidate's boxes, 2 r. It may be infinite.
     gap: f64,
-    /// By how much boxes of nodes are grown: at least half of that, unless no two boxes are further apart.
+    /// Distance by which boxes of nodes are grown: at least half of `gap`, or so much that any two
+    /// boxes overlap.
     grown_by: f32,
 }
 
 impl Margin {
-    /// `radius` is finite and at least 0.
+    /// Margin of `radius` round each element, finite and at least 0.
     pub(crate) fn new(radius: f64) -> Self {
         let nearest = (radius as f32).min(f32::MAX);
         let grown_by = if f64::from(nearest) < radius {
@@ -96,12 +111,12 @@ impl Margin {
         }
     }
 
-    /// By how much boxes of nodes are grown.
+    /// Distance by which boxes of nodes are grown.
     pub(crate) fn grown_by(self) -> f32 {
         self.grown_by
     }
 
-    /// Runs of triangles, whose elements are looked at, along their motions.
+    /// Needs of candidates: runs of triangles, whose elements are compared, along their motions.
     fn needs(self, which: Which) -> Needs {
         Needs {
             box_set: OF_MOTIONS,
@@ -115,7 +130,7 @@ impl Margin {
         Limits::new::<S>(self.gap, f64::from(most))
     }
 
-    /// Whether two elements, one of either side, are as near as that: exactly.
+    /// Whether the boxes of two elements, one of either side, are within the margin: exactly.
     #[cold]
     fn holds<S: Coordinate>(
         self,

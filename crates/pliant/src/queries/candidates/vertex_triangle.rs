@@ -1,4 +1,4 @@
-//! Vertices near triangles.
+//! Candidates of vertices and triangles.
 
 use super::hit::VertexTriangle;
 use super::{Candidates, keep};
@@ -9,16 +9,18 @@ use crate::queries::near::runs::{RUNS_AT_ONCE, RunPairs, near_runs};
 use crate::queries::near::{Which, groups};
 use crate::queries::{Batch, CallerIds, FoundBy, Kind, LeafTest, Needs, shows_hits};
 
-/// Vertices and triangles whose boxes are near each other, of one body or of two: the vertices of either.
+/// Kind of query: vertices and triangles whose boxes are near each other, of one body or of two,
+/// the vertices of either.
 pub(crate) type VertexTriangleCandidates<S> = Candidates<VertexTriangle, S>;
 
-/// Beside the number of a triangle: the vertex is of the second body. There are fewer triangles than this.
+/// Flag beside the number of a triangle: the vertex is the second body's. Numbers of triangles are
+/// below it.
 const OF_SECOND: u32 = 1 << 31;
 
 impl<S: Coordinate> Kind for VertexTriangleCandidates<S> {
     type Scalar = S;
     type Hit = VertexTriangle;
-    /// A vertex and a triangle in tree order, the triangle with [`OF_SECOND`] or without.
+    /// A vertex and a triangle in tree order, the triangle with or without [`OF_SECOND`].
     type TreeHit = [u32; 2];
     type Buffers = ();
 
@@ -51,7 +53,7 @@ impl<S: Coordinate> Kind for VertexTriangleCandidates<S> {
 }
 
 impl<S: Coordinate> VertexTriangleCandidates<S> {
-    /// Of which side the vertex of a candidate is; the vertex, and the triangle, which is of the other.
+    /// Side of the vertex of a candidate, the vertex, and the triangle, which is of the other side.
     #[inline]
     pub(crate) fn sides_of([vertex, triangle]: [u32; 2]) -> (usize, TreeVertex, TreeTriangle) {
         let side = usize::from(triangle & OF_SECOND != 0);
@@ -62,7 +64,7 @@ impl<S: Coordinate> VertexTriangleCandidates<S> {
         )
     }
 
-    /// The vertices of runs of one side with the triangles of runs of the other.
+    /// Tests the vertices of runs of one side against the triangles of runs of the other.
     fn test_side(
         &self,
         leaves: &LeafTest<S>,
@@ -111,7 +113,8 @@ impl<S: Coordinate> VertexTriangleCandidates<S> {
                 let runs = RunPairs {
                     pairs,
                     first: side,
-                    // Within one run, all of its vertices meet all of its triangles.
+                    // Within one run, side 0 has paired all of its vertices with all of its
+                    // triangles.
                     without_itself: side == 1 && leaves.is_one_tree,
                 };
                 let mut kept = [[0; 2]; RUNS_AT_ONCE];

@@ -1,15 +1,16 @@
-//! Where elements are closest: in double precision where that is as near as is promised, else in integers.
+//! Closest points of elements: in double precision where that reaches the promised accuracy, else
+//! in integers.
 
 use crate::geometry::Real;
 use crate::kernels::Simd;
-use crate::kernels::closest::{Corners, along_normal, of_elements};
+use crate::kernels::closest::{FourCorners, along_normal, of_elements};
 use crate::threads::Interrupt;
 use pliant_exact::distance::{Closest, Primitives, closest};
 
-/// What is promised of distances: 2^-30 of themselves.
+/// Promised accuracy of distances: 2^-30 of themselves.
 pub(in crate::queries) const ACCURACY: f64 = f64::from_bits((1023 - 30) << 52);
 
-/// Half a distance, or the next larger number: half of the smallest number there is has no number.
+/// Half of a distance, rounded up: half of the smallest number is no number.
 pub(in crate::queries) fn half(distance: f64) -> f64 {
     let half = distance / 2.0;
     if 2.0 * half < distance {
@@ -19,7 +20,7 @@ pub(in crate::queries) fn half(distance: f64) -> f64 {
     }
 }
 
-/// Two edges by their ends, or a vertex and the corners of a triangle.
+/// Two edges by their ends, or a vertex and the corners of a triangle, for exact arithmetic.
 pub(in crate::queries) fn primitives(are_edges: bool, corners: [[f64; 3]; 4]) -> Primitives {
     if are_edges {
         Primitives::EdgeEdge(corners)
@@ -28,20 +29,26 @@ pub(in crate::queries) fn primitives(are_edges: bool, corners: [[f64; 3]; 4]) ->
     }
 }
 
-/// A pair as exact arithmetic takes it.
-pub(in crate::queries) fn exactly<S: Real>(are_edges: bool, corners: &Corners<S>) -> Primitives {
+/// A pair of elements for exact arithmetic, from padded corners.
+pub(in crate::queries) fn exactly<S: Real>(
+    are_edges: bool,
+    corners: &FourCorners<S>,
+) -> Primitives {
     let corners = corners.map(|&[x, y, z, _]| [x, y, z].map(Real::to_f64));
     primitives(are_edges, corners)
 }
 
-/// Shows `take` where the first `count` of four pairs are closest, in their order. If both bounds are as near each other as is promised, it is
-/// what was computed, if need be with the normal for a direction; the few others, slivers and what touches, are measured in integers, which takes long enough to be asked before each
-/// whether to end. Returns false if so.
+/// Shows `take` the closest points of the first `count` of four pairs, in order. Returns false if
+/// interrupted.
+///
+/// If both bounds are within the promised accuracy, the computed points are used, if need be with
+/// the common normal for a direction. The few others, slivers and pairs that touch, are measured in
+/// integers. That takes long enough to look at the interruption before each.
 #[inline(always)]
 pub(crate) fn closest_of<I: Simd, S: Real>(
     i: I,
     are_edges: bool,
-    pairs: &[Corners<S>; 4],
+    pairs: &[FourCorners<S>; 4],
     count: usize,
     interrupt: &Interrupt,
     mut take: impl FnMut(usize, &Closest),
@@ -73,8 +80,11 @@ pub(crate) fn closest_of<I: Simd, S: Real>(
     true
 }
 
-/// Whether the way between points has this direction, as nearly as is promised of its length: of elements that are nearly parallel, points
-/// may be the nearest ones by length and be some way off to the side.
+/// Whether the way between the points has this direction, within the promised accuracy of its
+/// length.
+///
+/// Of nearly parallel elements, points may be the nearest by length and yet be some way off to the
+/// side.
 fn is_the_way(direction: [f64; 3], way: [f64; 3], distance: f64) -> bool {
     let off = |axis: usize| (direction[axis] * distance - way[axis]).abs();
     (0..3).all(|axis| off(axis) <= ACCURACY * distance)

@@ -1,10 +1,10 @@
-//! Vertices and triangles, and edges, that are at most some distance apart.
+//! Close pairs of elements: vertices and triangles, or edges, that are at most a distance apart.
 
 use super::closest::{exactly, half};
 use super::measured::{ElementPair, Measurable, measure_all};
 use crate::geometry::{Points, Real};
 use crate::ids::TreeVertex;
-use crate::kernels::closest::{Corners, decide_eight, of_elements};
+use crate::kernels::closest::{FourCorners, decide_eight, of_elements};
 use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
 use crate::queries::{
     Batch, CallerIds, EdgeEdgeCandidates, FoundBy, Kind, LeafTest, Margin, Needs,
@@ -12,7 +12,7 @@ use crate::queries::{
 };
 use pliant_exact::distance::are_within_distance;
 
-/// Candidates of a kind that are at most so far apart.
+/// Kind of query: candidates of the kind `K` that are at most `distance` apart.
 #[derive(Debug)]
 pub(crate) struct Close<K> {
     candidates: K,
@@ -20,7 +20,8 @@ pub(crate) struct Close<K> {
 }
 
 impl<K> Close<K> {
-    /// `candidates` makes those of a margin. The distance is finite and at least 0.
+    /// Close pairs within a distance, finite and at least 0. `candidates` makes the kind of
+    /// candidates for a margin.
     pub(crate) fn within(distance: f64, candidates: impl Fn(Margin) -> K) -> Self {
         Self {
             candidates: candidates(Margin::new(half(distance))),
@@ -29,50 +30,52 @@ impl<K> Close<K> {
     }
 }
 
-/// A kind of candidates of two elements, which have four corners together.
+/// Kind of candidates of two elements, which have four corners together.
 pub(crate) trait ElementCandidates:
     Kind<TreeHit = [u32; 2], Buffers = (), Hit: ElementPair>
 {
-    /// The four corners of a candidate, and of which body each is: vertex, triangle; or both ends of either edge.
+    /// The four corners of a candidate, each with its side: vertex, triangle; or both ends of
+    /// either edge.
     fn vertices(leaves: &LeafTest<Self::Scalar>, hit: [u32; 2])
     -> Option<[(usize, TreeVertex); 4]>;
 
-    /// Where they are.
+    /// Positions of the four corners of a candidate.
     #[inline(always)]
     fn corners<'q>(
         leaves: &LeafTest<'q, Self::Scalar>,
         hit: [u32; 2],
-    ) -> Option<Corners<'q, Self::Scalar>> {
+    ) -> Option<FourCorners<'q, Self::Scalar>> {
         let positions = leaves.shapes.map(|shape| shape.positions);
         Some(corners_at(Self::vertices(leaves, hit)?, positions))
     }
 
-    /// The same in the order in which the caller has them.
+    /// Positions of the four corners in the caller's order.
     #[inline(always)]
     fn callers_corners<'q>(
         leaves: &LeafTest<'q, Self::Scalar>,
         hit: [u32; 2],
-    ) -> Option<Corners<'q, Self::Scalar>> {
+    ) -> Option<FourCorners<'q, Self::Scalar>> {
         Self::corners(leaves, hit)
     }
 }
 
-/// Where corners are, if vertices of the two bodies are at these positions.
+/// Positions of four corners, each with its side, by the positions of both bodies.
 #[inline(always)]
 pub(in crate::queries) fn corners_at<S>(
     [a, b, c, d]: [(usize, TreeVertex); 4],
     positions: [&Points<S>; 2],
-) -> Corners<'_, S> {
+) -> FourCorners<'_, S> {
     let at = |(side, vertex): (usize, TreeVertex)| positions[side].padded(vertex);
     [at(a), at(b), at(c), at(d)]
 }
 
-/// Whether a pair that single precision left undecided is at most so far apart. Counts exact decisions.
+/// Whether a pair that single precision left undecided is at most `distance` apart. Counts exact
+/// decisions.
 #[cold]
 fn is_close<S: Real>(
     instructions: Instructions,
     are_edges: bool,
-    pair: &Corners<S>,
+    pair: &FourCorners<S>,
     distance: f64,
     exact_decisions: &mut u64,
 ) -> bool {
@@ -86,7 +89,7 @@ fn is_close<S: Real>(
 
 impl<K: ElementCandidates> Kind for Close<K>
 where
-    K::Hit: for<'c> Measurable<Corners<'c, K::Scalar> = Corners<'c, K::Scalar>>,
+    K::Hit: for<'c> Measurable<Corners<'c, K::Scalar> = FourCorners<'c, K::Scalar>>,
 {
     type Scalar = K::Scalar;
     type Hit = K::Hit;
@@ -124,7 +127,7 @@ where
 }
 
 impl<K: ElementCandidates> Close<K> {
-    /// Moves those of some candidates that are close to the front, in their order; returns how many they are.
+    /// Moves the candidates that are close to the front, in order. Returns how many they are.
     #[inline(always)]
     fn keep<I: Simd>(
         &self,
@@ -147,7 +150,7 @@ impl<K: ElementCandidates> Close<K> {
                 pairs[lane] = K::corners(leaves, some[lane]).unwrap_or(first);
             }
             let [mut close, far] = decide_eight(i, are_edges, &pairs, self.distance);
-            // Hardly ever any.
+            // Undecided pairs, of which there are hardly ever any.
             let mut rest = !(close | far) & ((1 << count) - 1);
             while rest != 0 {
                 if leaves.interrupt.is_set() {
@@ -184,7 +187,7 @@ impl<S: Coordinate> ElementCandidates for EdgeEdgeCandidates<S> {
         Some([(0, a0), (0, a1), (1, b0), (1, b1)])
     }
 
-    fn callers_corners<'q>(leaves: &LeafTest<'q, S>, hit: [u32; 2]) -> Option<Corners<'q, S>> {
+    fn callers_corners<'q>(leaves: &LeafTest<'q, S>, hit: [u32; 2]) -> Option<FourCorners<'q, S>> {
         let mut ends = Self::ends(leaves, hit)?;
         for (ends, order) in ends.iter_mut().zip(leaves.ids.orders) {
             ends.sort_unstable_by_key(|&end| order.caller_vertex(end).0);
@@ -201,7 +204,7 @@ impl<S: Coordinate> ElementCandidates for EdgeEdgeCandidates<S> {
 }
 
 impl<S: Coordinate> EdgeEdgeCandidates<S> {
-    /// The ends of either edge.
+    /// Ends of both edges.
     #[inline(always)]
     fn ends(leaves: &LeafTest<S>, [a, b]: [u32; 2]) -> Option<[[TreeVertex; 2]; 2]> {
         let [of_a, of_b] = leaves.elements;

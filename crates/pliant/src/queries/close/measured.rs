@@ -1,25 +1,24 @@
-//! Measuring close pairs: lists once they are sorted, and as pairs are found where visitors see
-//! them.
+//! Measurement of close pairs: of lists once they are sorted, and for visitors as pairs are found.
 
 use super::closest::closest_of;
 use super::hit::{CloseEdgeEdge, CloseVertexTriangle};
-use crate::kernels::closest::Corners;
+use crate::kernels::closest::FourCorners;
 use crate::kernels::{Coordinate, Simd};
 use crate::queries::{EdgeEdge, VertexTriangle};
 use crate::sort::Hit;
 use crate::threads::Interrupt;
 use pliant_exact::distance::Closest;
 
-/// Two things that can be measured.
+/// Pair that can be measured.
 pub(crate) trait Measurable: Hit {
     type Close: Copy + std::fmt::Debug + Send + Sync;
-    /// The corners of both, each with padding.
+    /// Corners of both, each with padding.
     type Corners<'c, S: Coordinate>: Copy;
 
-    /// Before it was measured.
+    /// The pair with placeholders, before it is measured.
     fn unmeasured(self) -> Self::Close;
 
-    /// Shows `take` up to four with what is measured, in their order. Returns false if interrupted.
+    /// Measures up to four pairs and shows them to `take`, in order. Returns false if interrupted.
     fn measure<I: Simd, S: Coordinate>(
         i: I,
         hits: &[Self],
@@ -29,12 +28,12 @@ pub(crate) trait Measurable: Hit {
     ) -> bool;
 }
 
-/// Two elements, which have four corners together.
+/// Pair of elements, which have four corners together.
 pub(crate) trait ElementPair: Measurable {
-    /// Whether they are edges; else they are a vertex and a triangle.
+    /// Whether the elements are edges; else they are a vertex and a triangle.
     const ARE_EDGES: bool;
 
-    /// With what was measured.
+    /// The pair with its measurements.
     fn close(self, closest: &Closest) -> Self::Close;
 }
 
@@ -69,12 +68,12 @@ impl ElementPair for EdgeEdge {
     }
 }
 
-/// What both kinds of elements do alike.
+/// Implements `Measurable` for both kinds of elements.
 macro_rules! measurable {
     ($pair:ty, $close:ty) => {
         impl Measurable for $pair {
             type Close = $close;
-            type Corners<'c, S: Coordinate> = Corners<'c, S>;
+            type Corners<'c, S: Coordinate> = FourCorners<'c, S>;
 
             fn unmeasured(self) -> $close {
                 self.close(&Closest::default())
@@ -84,7 +83,7 @@ macro_rules! measurable {
             fn measure<I: Simd, S: Coordinate>(
                 i: I,
                 hits: &[Self],
-                corners: &[Corners<'_, S>; 4],
+                corners: &[FourCorners<'_, S>; 4],
                 interrupt: &Interrupt,
                 mut take: impl FnMut($close),
             ) -> bool {
@@ -112,9 +111,10 @@ fn direction(closest: &Closest) -> Option<[f64; 3]> {
     (closest.distance != 0.0).then_some(closest.direction)
 }
 
-/// Shows `take` hits with what is measured of them, in their order. `pair` says what each is as the
-/// caller numbers things, and `corners` where its corners are. Interrupted, or where there are none,
-/// it ends early.
+/// Measures hits and shows them to `take`, in order. Ends early if interrupted, or if a hit has no
+/// corners.
+///
+/// `pair` returns a hit with the caller's numbers, `corners` the positions of its corners.
 #[inline(always)]
 pub(crate) fn measure_all<'c, I: Simd, S: Coordinate, H: Measurable, T: Copy>(
     i: I,

@@ -1,9 +1,10 @@
-//! Close pairs: candidates whose elements are at most some distance apart, exactly; and triangles that are (`triangles`).
+//! Close pairs: elements, or triangles, that are at most a distance apart, decided exactly.
 //!
-//! A candidate's boxes are as near as that on every axis; whether the elements are is decided eight at a time between two proven bounds
-//! in single precision (`kernels::closest`), the few that the distance lies between in double precision, and what is left by integers
-//! (`pliant_exact::distance`). They are of the shape of now; where a body has a motion, its boxes hold the way too, and only more candidates
-//! are looked at.
+//! Close elements are candidates (`candidates`) of half the distance as a margin, whose own
+//! distance is then decided. Single precision decides eight at a time between two proven bounds
+//! (`kernels::closest`). Double precision decides the few whose bounds the distance lies between,
+//! and integers (`pliant_exact::distance`) the rest. Distances are of the present shape. Where a
+//! body has a motion, its boxes hold the way too, and only more candidates are looked at.
 
 mod closest;
 mod elements;

@@ -1,8 +1,10 @@
-//! Triangles that are at most some distance apart, exactly: those that intersect, at distance 0, and those that do not.
+//! Close triangles: pairs that are at most a distance apart, decided exactly. Triangles that
+//! intersect are at distance 0.
 //!
-//! Candidates are triangles whose boxes, grown by half the distance, overlap; within a body, those that share a vertex of the mesh are left
-//! out as in `intersections`. Each is decided between two proven bounds (`kernels::closest`), and what the distance lies between
-//! by exact arithmetic (`pliant_exact::distance`).
+//! Candidates are triangles whose boxes, grown by half the distance, overlap. Within a body, pairs
+//! that share a vertex of the mesh are left out as in `intersections`. Each pair is decided between
+//! two proven bounds (`kernels::closest`); where the distance lies between them, exact arithmetic
+//! (`pliant_exact::distance`) decides.
 
 use super::closest::{ACCURACY, half};
 use super::hit::CloseTriangles;
@@ -23,7 +25,7 @@ use pliant_exact::distance::{
 };
 use std::marker::PhantomData;
 
-/// Pairs of triangles that are at most so far apart.
+/// Kind of query: pairs of triangles that are at most a distance apart.
 #[derive(Debug)]
 pub(crate) struct NearTriangles<S> {
     margin: Margin,
@@ -32,7 +34,7 @@ pub(crate) struct NearTriangles<S> {
 }
 
 impl<S> NearTriangles<S> {
-    /// The distance is finite and at least 0.
+    /// Close triangles within a distance, finite and at least 0.
     pub(crate) fn within(distance: f64) -> Self {
         Self {
             margin: Margin::new(half(distance)),
@@ -42,17 +44,17 @@ impl<S> NearTriangles<S> {
     }
 }
 
-/// The corners of a triangle, each with padding.
+/// Corners of a triangle, each with padding.
 pub(crate) type ThreeCorners<'c, S> = [&'c [S; 4]; 3];
 
-/// The nearest of some pairs of triangles of two bodies that are measured one after the other.
+/// The nearest pair of triangles of two bodies so far, as pairs are measured one after the other.
 pub(crate) struct NearestPair {
     cut_off: f64,
     nearest: Option<(Candidate, TrianglesClosest)>,
 }
 
 impl NearestPair {
-    /// Of those that are at most so far apart; perhaps infinite.
+    /// Search for the nearest pair that is at most `cut_off` apart, which may be infinite.
     pub(crate) fn within(cut_off: f64) -> Self {
         Self {
             cut_off,
@@ -60,12 +62,13 @@ impl NearestPair {
         }
     }
 
-    /// What was found.
+    /// The nearest pair and its closest points.
     pub(crate) fn found(self) -> Option<(Candidate, TrianglesClosest)> {
         self.nearest
     }
 
-    /// The square of the distance beyond which pairs need not be measured: those that are nearer by no more than 2^-31 of it need not.
+    /// Square of the distance beyond which pairs need not be measured. Pairs nearer by no more than
+    /// 2^-31 of the distance count as beyond.
     pub(crate) fn limit(&self) -> f64 {
         match &self.nearest {
             Some((_, nearest)) => {
@@ -86,7 +89,8 @@ impl NearestPair {
         exact_decisions: &mut u64,
     ) {
         let [a, b] = corners;
-        // Mostly both bodies are on either side of a plane between the nearest triangles, and all others are known by their corners.
+        // Mostly a plane between the nearest triangles separates both bodies, and the corners of
+        // all other pairs show it.
         if let Some((_, nearest)) = &self.nearest
             && apart_along(nearest.direction, a, b) >= enough(nearest)
         {
@@ -109,12 +113,12 @@ impl NearestPair {
     }
 }
 
-/// The distance from which on others are not nearer than these by more than is promised.
+/// Distance from which on other pairs are not nearer by more than the promised accuracy.
 fn enough(nearest: &TrianglesClosest) -> f64 {
     nearest.distance * (1.0 - f64::powi(0.5, 31))
 }
 
-/// Where two triangles are closest; none if interrupted.
+/// Closest points of two triangles. None if interrupted.
 #[inline(always)]
 pub(crate) fn closest_of_triangles<I: Simd, S: Real>(
     i: I,
@@ -125,7 +129,10 @@ pub(crate) fn closest_of_triangles<I: Simd, S: Real>(
     closest(of_triangles(i, a, b), corners, interrupt)
 }
 
-/// The same of two that were measured in plain arithmetic. What that leaves undecided takes long enough to be asked before whether to end.
+/// Closest points of two triangles that plain arithmetic has measured. None if interrupted.
+///
+/// Exact arithmetic measures the undecided. That takes long enough to look at the interruption
+/// before.
 fn closest<S: Real>(
     measured: TwoClosest,
     [a, b]: &[ThreeCorners<S>; 2],
@@ -147,12 +154,12 @@ fn closest<S: Real>(
     (!interrupt.is_set()).then(|| closest_triangles(S::PRECISION, &exact(a), &exact(b), known))
 }
 
-/// A triangle as exact arithmetic takes it.
+/// A triangle for exact arithmetic, from padded corners.
 fn exact<S: Real>(corners: &ThreeCorners<S>) -> Triangle {
     corners.map(|&[x, y, z, _]| [x, y, z].map(Real::to_f64))
 }
 
-/// The corners of a triangle of a shape.
+/// Corners of a triangle of a shape.
 #[inline(always)]
 pub(crate) fn corners_of<'q, S: Coordinate>(
     shape: &Shape<'q, S>,
@@ -200,7 +207,7 @@ impl Measurable for Pair {
     }
 }
 
-/// A pair, by its corners, with what was measured.
+/// A pair with its measurements, from its corners.
 pub(crate) fn close<S: Real>(
     pair: Pair,
     [a, b]: &[ThreeCorners<S>; 2],
@@ -218,7 +225,7 @@ pub(crate) fn close<S: Real>(
     }
 }
 
-/// The point in which each corner counts so much.
+/// Point of a triangle with these barycentric coordinates.
 fn point<S: Real>(corners: &ThreeCorners<S>, counts: [f64; 3]) -> [f64; 3] {
     let [a, b, c] = exact(corners);
     let [x, y, z] = counts;
@@ -281,7 +288,8 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
     }
 }
 
-/// Whether two triangles, measured in plain arithmetic, are at most so far apart. Counts exact decisions.
+/// Whether two triangles, which plain arithmetic has measured, are at most `distance` apart. Counts
+/// exact decisions.
 fn is_within<S: Real>(
     measured: &TwoClosest,
     [a, b]: &[ThreeCorners<S>; 2],
@@ -334,7 +342,8 @@ mod tests {
         }
     }
 
-    /// A point in coordinates is the one that the corners name, but for 2^-50 of the largest of theirs.
+    /// Checks that a point's coordinates are its weighted corners, within 2^-50 of the largest
+    /// coordinate of these.
     fn check_coordinates(counts: [f64; 3], corners: &Triangle) {
         let padded = corners.map(|[x, y, z]| [x, y, z, z]);
         let found = point(&padded.each_ref(), counts);

@@ -1,15 +1,19 @@
-//! Contacts, as callers get them: two triangles that intersect, and how.
+//! Contacts as callers get them: two triangles that intersect, and how.
 
 use crate::queries::Pair;
 use crate::sort::Numbered;
+/// Kind of a contact: crossing, overlapping, or only touching.
+///
+#[doc = include_str!("../../../pictures/contacts.svg")]
+///
 pub use pliant_exact::ContactKind;
 
-/// Two triangles that intersect, and how.
+/// Two triangles that intersect, and the kind of their contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Contact {
-    /// Which they are.
+    /// The two triangles.
     pub pair: Pair,
-    /// How they intersect.
+    /// Kind of contact: how they intersect.
     pub kind: ContactKind,
 }
 

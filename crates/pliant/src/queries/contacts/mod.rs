@@ -1,6 +1,8 @@
-//! Triangles that intersect, and how: the same candidates, the same decision, and then the kind of each pair, or those of one kind alone.
+//! Contacts: triangles that intersect, with the kind of each contact, all or of one kind alone.
 //!
-//! What `eight` decides on signs that are certain and not zero crosses. Only pairs that were left to exact signs are asked for their kind.
+//! Candidates and decision are as of intersections. Pairs that `eight` decides on signs that are
+//! certain and not zero are crossings. Only pairs that were left to exact signs are asked for their
+//! kind.
 
 mod hit;
 
@@ -13,7 +15,7 @@ use crate::kernels::{Buffer, Coordinate};
 pub use hit::{Contact, ContactKind};
 use pliant_exact::contact_kind;
 
-/// Pairs of triangles that intersect, with their kinds.
+/// Kind of query: pairs of triangles that intersect, with the kinds of their contacts.
 #[derive(Debug)]
 pub(crate) struct Contacts<S> {
     intersections: Intersections<S>,
@@ -21,7 +23,7 @@ pub(crate) struct Contacts<S> {
 }
 
 impl<S> Contacts<S> {
-    /// Of one kind, or of all.
+    /// Contacts of one kind, or of all kinds.
     pub(crate) fn of(only: Option<ContactKind>) -> Self {
         Self {
             intersections: Intersections::default(),
@@ -30,14 +32,14 @@ impl<S> Contacts<S> {
     }
 }
 
-/// A pair in tree order, and its kind.
+/// A pair in tree order, and the kind of its contact.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TreeContact {
     pair: Candidate,
     kind: ContactKind,
 }
 
-/// What a task keeps: pairs that intersect, before it is known how.
+/// Scratch memory of a task: pairs that intersect, before their kind is known.
 #[derive(Debug, Default)]
 pub(crate) struct ContactBuffers {
     undecided: Undecided,

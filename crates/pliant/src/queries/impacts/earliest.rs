@@ -1,8 +1,9 @@
-//! The earliest contact of a motion, while it is looked for: what tasks find is compared with it at once, and none is listed.
+//! Earliest contact of a motion: every task compares its finds with it at once, and none is listed.
 //!
-//! It is the least in one order: by exact time, then vertices and triangles before edges, then by the caller's numbers. So it is the same
-//! in whatever order contacts come. Its time bounds what is of interest, and may become smaller at any moment: what is surely later is left
-//! out, and what is surely not earlier, if it is behind it in order.
+//! It is the least in one order: by exact time, then vertices and triangles before edges, then by
+//! the caller's numbers. So it does not depend on the order in which contacts come. Its time bounds
+//! the search, and may become smaller at any moment. Contacts that are surely later are left out;
+//! so are contacts that are surely not earlier and come later in the order.
 
 use super::hit::Impact;
 use pliant_exact::motion::{Certain, Contact, Decided, Grid, Moving, first_contact, quick};
@@ -10,22 +11,23 @@ use std::cmp::Ordering::Less;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{PoisonError, RwLock};
 
-/// The cells of times that bound what is of interest: 2^-40 wide.
+/// Width of the cells of times that bound the search: 2^-40.
 const WIDTH: f64 = f64::from_bits((1023 - 40) << 52);
 
-/// The earliest contact that is known, or the first time at which elements come as near as a distance.
+/// The earliest contact so far, or the first time at which elements come as near as a distance.
 #[derive(Debug)]
 pub(crate) struct Earliest {
-    /// Whether what meets at the start is passed over.
+    /// Whether contacts at the start are left out.
     after_start: bool,
-    /// Up to here the motion is looked at. What is later may not be the first of those.
+    /// Time to which the motion is looked at. Later contacts may not be the first.
     reach: f64,
-    /// The bits of a time after which nothing is of interest: those of numbers that are not negative are in the order of these.
+    /// Bits of a time that bounds the search. Numbers that are not negative are ordered as their
+    /// bits.
     until: AtomicU64,
     first: RwLock<Option<First>>,
 }
 
-/// Two elements that meet, and exactly when.
+/// Two elements that meet, and their exact time.
 #[derive(Debug)]
 pub(crate) struct First {
     pub(crate) impact: Impact,
@@ -33,7 +35,7 @@ pub(crate) struct First {
 }
 
 impl First {
-    /// The impact with the cell of a grid in which it is.
+    /// The impact with its cell of a grid.
     pub(crate) fn in_cell_of(self, grid: Grid) -> Impact {
         self.impact.with_cell(self.contact.cell(grid))
     }
@@ -49,12 +51,12 @@ impl Earliest {
         }
     }
 
-    /// Nothing that is later is of interest.
+    /// Time after which nothing is of interest.
     pub(crate) fn until(&self) -> f64 {
         self.known().min(self.reach)
     }
 
-    /// When the earliest is, or a little later; infinite if none is known.
+    /// Time of the earliest contact, or a little later. Infinite if none is known.
     pub(crate) fn known(&self) -> f64 {
         f64::from_bits(self.until.load(Ordering::Relaxed))
     }
@@ -65,14 +67,15 @@ impl Earliest {
             .unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes a time at which elements come near, if none is earlier.
+    /// Records a time at which elements come near, if none is earlier.
     pub(super) fn take_time(&self, time: f64) {
         if time <= self.reach {
             self.until.fetch_min(time.to_bits(), Ordering::Relaxed);
         }
     }
 
-    /// Takes two elements, if they meet and none is before them. Returns whether they are taken, and how that was decided.
+    /// Offers two elements, which are recorded if they meet and come before all others. Returns
+    /// whether, and how that was decided.
     pub(super) fn offer(&self, moving: &Moving, impact: Impact) -> (bool, Decided) {
         let grid = Grid::new(WIDTH);
         let until = self.until();
@@ -97,7 +100,8 @@ impl Earliest {
         (is_taken, Decided::InIntegers)
     }
 
-    /// Whether what is known surely is before two elements, without their own time being found.
+    /// Whether the known contact surely comes before two elements, without their own time being
+    /// computed.
     fn surely_precedes(&self, moving: &Moving, impact: Impact) -> bool {
         let first = self.first.read().unwrap_or_else(PoisonError::into_inner);
         first.as_ref().is_some_and(|known| {

@@ -1,20 +1,21 @@
-//! Impacts, as callers get them: two elements that meet during a motion, and when first.
+//! Impacts as callers get them: two elements that meet during a motion, and when first.
 
 use crate::queries::{EdgeEdge, VertexTriangle};
 use crate::sort::Numbered;
 
 /// A vertex and a triangle, of which it is no corner, that meet during a motion.
 ///
-/// Time is 0 at the start of the motion and 1 at its end. The two are apart at all times from 0 to `low`, both included, and meet at some
-/// time after that which is not after `high`. Elements that meet at the start already have 0 for both. Which numbers these are depends on
-/// the exact time of the first contact and on the width that was asked for, and on nothing else: see [`Query::width`](crate::Query::width).
+/// Time is 0 at the start of the motion and 1 at its end. The two are apart at all times from 0 to
+/// `low`, both included, and meet at some time after `low` that is not after `high`. Elements that
+/// already meet at the start have 0 for both. The two numbers depend only on the exact time of the
+/// first contact and on the width asked for: see [`Query::width`](crate::Query::width).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VertexTriangleImpact {
-    /// Which they are.
+    /// The vertex and the triangle.
     pub pair: VertexTriangle,
-    /// They are apart up to here.
+    /// Lower bound of the time of first contact: the two are apart up to here.
     pub low: f64,
-    /// They have met when it is that late.
+    /// Upper bound of the time of first contact, a part of the motion from 0 to 1.
     pub high: f64,
 }
 
@@ -27,14 +28,14 @@ impl Numbered for VertexTriangleImpact {
 
 /// Two edges, which have no end in common, that meet during a motion.
 ///
-/// `low` and `high` are as those of a [`VertexTriangleImpact`].
+/// `low` and `high` are defined as in [`VertexTriangleImpact`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeEdgeImpact {
-    /// Which they are.
+    /// The two edges.
     pub pair: EdgeEdge,
-    /// They are apart up to here.
+    /// Lower bound of the time of first contact: the two are apart up to here.
     pub low: f64,
-    /// They have met when it is that late.
+    /// Upper bound of the time of first contact, a part of the motion from 0 to 1.
     pub high: f64,
 }
 
@@ -55,7 +56,7 @@ pub enum Impact {
 }
 
 impl Impact {
-    /// They are apart up to here.
+    /// Lower bound of the time of first contact: the two are apart up to here.
     pub fn low(&self) -> f64 {
         match self {
             Self::VertexTriangle(impact) => impact.low,
@@ -63,7 +64,8 @@ impl Impact {
         }
     }
 
-    /// Of two at one time the first in this order is the first: vertices and triangles before edges, each by their numbers.
+    /// Key of the order among impacts at one time: vertices and triangles before edges, each by
+    /// their numbers.
     pub(crate) fn order(&self) -> (bool, [u32; 4]) {
         match self {
             Self::VertexTriangle(impact) => (false, impact.numbers()),
@@ -71,7 +73,7 @@ impl Impact {
         }
     }
 
-    /// With other times.
+    /// The impact with other times.
     pub(crate) fn with_cell(self, [low, high]: [f64; 2]) -> Self {
         match self {
             Self::VertexTriangle(impact) => Self::VertexTriangle(VertexTriangleImpact {
@@ -87,7 +89,7 @@ impl Impact {
         }
     }
 
-    /// They have met when it is that late.
+    /// Upper bound of the time of first contact, a part of the motion from 0 to 1.
     pub fn high(&self) -> f64 {
         match self {
             Self::VertexTriangle(impact) => impact.high,
@@ -97,7 +99,7 @@ impl Impact {
 }
 
 impl VertexTriangleImpact {
-    /// What an impact is, if it is one of a vertex and a triangle.
+    /// The impact of a vertex and a triangle, if it is one.
     pub(crate) fn of(impact: Impact) -> Option<Self> {
         match impact {
             Impact::VertexTriangle(impact) => Some(impact),
@@ -107,7 +109,7 @@ impl VertexTriangleImpact {
 }
 
 impl EdgeEdgeImpact {
-    /// What an impact is, if it is one of two edges.
+    /// The impact of two edges, if it is one.
     pub(crate) fn of(impact: Impact) -> Option<Self> {
         match impact {
             Impact::VertexTriangle(_) => None,

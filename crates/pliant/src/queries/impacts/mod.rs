@@ -1,8 +1,10 @@
-//! Impacts: candidates of a motion whose elements meet on the way, and when first.
+//! Impacts: continuous collision of elements that meet during a motion, and when first.
 //!
-//! Candidates are decided as soon as a batch of them is found, and never listed: eight at a time by separating directions in single
-//! precision (`kernels::apart`), which leaves few; each of these in double precision where rounding cannot matter, else in integers
-//! (`pliant_exact::motion`). What is found of a pair is its cell of a grid of times, which depends on nothing but the pair.
+//! Candidates are decided as soon as a batch of them is found, and never listed. Separating
+//! directions (`kernels::apart`) reject eight at a time in single precision, which leaves few. Each
+//! of these is decided in double precision where rounding cannot matter, else in integers
+//! (`pliant_exact::motion`). The time of a pair is a cell of a grid of times. That cell is a
+//! function of the exact time alone, so every way to it gives the same bits.
 
 mod earliest;
 mod hit;
@@ -21,15 +23,15 @@ pub use hit::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 use pliant_exact::distance::are_within_distance;
 use pliant_exact::motion::{Decided, Grid, Moving, distant_until, impact, starts_surely_within};
 
-/// Candidates of a kind that meet during a motion.
+/// Kind of query: candidates of the kind `K` that meet during a motion.
 #[derive(Debug)]
 pub(crate) struct Impacts<K> {
     candidates: K,
     grid: Grid,
     reach: Reach,
-    /// How near is as good as contact; 0 for contact itself.
+    /// Distance that counts as contact; 0 for contact itself.
     distance: f64,
-    /// Whether the earliest alone is looked for. It is kept here, and nothing is found.
+    /// Whether only the earliest is searched. It is kept in `earliest`, and no hits are found.
     is_first: bool,
     earliest: Earliest,
 }
@@ -41,11 +43,11 @@ pub(crate) struct TimedHit {
     pub(crate) cell: [f64; 2],
 }
 
-/// Two elements that may meet.
+/// Pair of elements that may meet.
 pub(crate) trait MayMeet: ElementPair {
     type Impact: Copy + std::fmt::Debug + Send + Sync + Into<Impact>;
 
-    /// With the cell in which they do.
+    /// The impact of this pair in a cell of the grid.
     fn impact(self, cell: [f64; 2]) -> Self::Impact;
 }
 
@@ -67,7 +69,7 @@ may_meet!(VertexTriangle => VertexTriangleImpact);
 may_meet!(EdgeEdge => EdgeEdgeImpact);
 
 impl<K> Impacts<K> {
-    /// Of candidates whose margin is zero.
+    /// Impacts of candidates, whose margin is zero.
     pub(crate) fn of(candidates: K, grid: Grid, reach: Reach) -> Self {
         Self {
             distance: 0.0,
@@ -79,13 +81,15 @@ impl<K> Impacts<K> {
         }
     }
 
-    /// Not contact, but coming as near as this, which is found by [`approach`]; candidates have half of [`LIMIT`] times that for a margin.
-    /// Elements that are as near at the start are asked for contact after it.
+    /// Searches for coming as near as a distance instead of contact. [`approach`] finds it.
+    ///
+    /// Candidates have half of [`LIMIT`] times the distance for a margin. Elements that are as near
+    /// at the start are tested for contact after it.
     pub(crate) fn or_near(self, distance: f64) -> Self {
         Self { distance, ..self }
     }
 
-    /// Nothing but what may be earlier than this, which it becomes.
+    /// Searches for nothing but what may be earlier than `earliest`, which is updated.
     pub(crate) fn earlier_than(self, earliest: Earliest) -> Self {
         Self {
             is_first: true,
@@ -103,7 +107,7 @@ impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
     type Scalar = K::Scalar;
     type Hit = <K::Hit as MayMeet>::Impact;
     type TreeHit = TimedHit;
-    /// Candidates.
+    /// Candidates of the batch.
     type Buffers = FoundBy<K>;
 
     shows_hits!();
@@ -124,7 +128,7 @@ impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
         candidates.hits.clear();
         candidates.statistics = Statistics::default();
         self.candidates.test(leaves, batch, candidates);
-        // Pairs and exact decisions are those of impacts.
+        // Pairs and exact decisions are counted of impacts, not of candidates.
         statistics.candidate_pairs += candidates.statistics.candidate_pairs;
         let until = self.earliest.until();
         let used = candidates.hits.len();
@@ -147,7 +151,7 @@ impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
 }
 
 impl<K: ElementCandidates<Hit: MayMeet>> Impacts<K> {
-    /// Decides up to eight candidates, of which there is one at least. None if interrupted.
+    /// Decides up to eight candidates, at least one. None if interrupted.
     #[inline(always)]
     fn decide<I: Simd>(
         &self,
@@ -207,11 +211,15 @@ impl<K: ElementCandidates<Hit: MayMeet>> Impacts<K> {
     }
 }
 
-/// What lanes find further apart than this many times the distance is further than [`distant_until`] takes for near.
+/// Factor on the distance: pairs that lanes find further apart than this are further than
+/// [`distant_until`] counts as near.
 pub(crate) const LIMIT: f64 = 1.002;
 
-/// A time up to which two elements stay further apart than a distance, twice, if that is not all the time; of those that are not at the
-/// start, one up to which they do not meet, if they meet later. What is after a time may be left out.
+/// Time up to which two elements stay further apart than `distance`, twice. None if that is all the
+/// time.
+///
+/// For elements that are near at the start, it is a time up to which they do not meet, if they meet
+/// later. Times after `of_interest` may be left out.
 #[cold]
 fn approach(moving: &Moving, distance: f64, of_interest: f64) -> (Option<[f64; 2]>, Decided) {
     let until = distant_until(moving, distance, of_interest);
@@ -230,7 +238,7 @@ fn approach(moving: &Moving, distance: f64, of_interest: f64) -> (Option<[f64; 2
     (later.map(|[low, _]| [low; 2]), decided)
 }
 
-/// The corners of a candidate at the start of the motion and at its end.
+/// Corners of a candidate at the start of the motion and at its end.
 #[inline(always)]
 fn moving_corners<'q, K: ElementCandidates>(
     leaves: &LeafTest<'q, K::Scalar>,
@@ -247,7 +255,7 @@ fn moving_corners<'q, K: ElementCandidates>(
     Some([a, b, c, d, e, f, g, h])
 }
 
-/// A pair of eight as exact arithmetic takes it.
+/// One pair of eight, for exact arithmetic.
 fn moving<K: ElementCandidates<Hit: MayMeet>>(
     corners: &MovingCorners<K::Scalar>,
     lane: usize,

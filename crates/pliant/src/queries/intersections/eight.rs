@@ -1,29 +1,28 @@
-//! Candidates eight at a time, by signs of which single precision is certain; the few others one by one.
+//! Triangle-triangle test of eight candidates at a time, by signs of which single precision is
+//! certain.
 //!
-//! 1. The six plane signs of `pliant_exact`. If one triangle lies on one side of the other's plane: **no**. That is most.
-//! 2. If none of the six is zero, each triangle has one corner alone on its side of the other's plane, and both triangles meet
-//!    the line of the two planes in a segment. Let p1 be that corner of one and p2 of the other, q and r the others in order,
-//!    exchanged where p would lie below the plane of the other triangle. Then the segments overlap, and the answer is **yes**, if
-//!    and only if neither p1 q1 p2 q2 nor p1 r1 r2 p2 is positively oriented (Guigue and Devillers 2003; two signs instead of
-//!    up to nine).
-//! 3. Where a sign is not certain, `pliant_exact` decides on exact signs.
+//! 1. Plane signs, six a pair. If one triangle lies on one side of the other's plane: **no**. That
+//!    is most.
+//! 2. Line signs, two a pair, where none of the six is zero ([`by_lines`]): **yes** or **no**.
+//! 3. Exact signs (`pliant_exact`) one by one, where a sign is not certain.
 //!
-//! The tests compare it with the exact decision on every kind of pair, at every level of instructions.
+//! Source: Guigue and Devillers 2003, who need two line signs instead of up to nine. The tests
+//! compare it with the exact decision on every kind of pair, for every instruction set.
 
 use super::{Candidate, LeafTest};
 use crate::geometry::Shape;
 use crate::held::held;
 use crate::ids::TreeVertex;
-use crate::kernels::{Buffer, Coordinate, Corners, Simd, dispatch, signs};
+use crate::kernels::{Buffer, Coordinate, Simd, TrianglePairs, dispatch, signs};
 use crate::statistics::Statistics;
 use pliant_exact::intersect;
 
 /// Candidates that are not known to be apart.
 #[derive(Debug, Default)]
 pub(crate) struct Undecided {
-    /// Those of which the first step knows all signs, and the second is to decide.
+    /// Candidates whose plane signs are all known, for step 2.
     crossing: Buffer<Crossing>,
-    /// Those that are left to exact signs.
+    /// Candidates that are left to exact signs.
     uncertain: Buffer<Candidate>,
 }
 
@@ -31,12 +30,15 @@ pub(crate) struct Undecided {
 #[derive(Clone, Copy, Debug, Default)]
 struct Crossing {
     candidate: Candidate,
-    /// Bits 0 to 2: the corners of A above the plane of B; 3 to 5: those of B above the plane of A.
+    /// Bits 0 to 2: corners of A above the plane of B. Bits 3 to 5: corners of B above the plane of
+    /// A.
     above: u8,
 }
 
-/// Decides candidates, and appends those that intersect to `hits`; the order depends on nothing but the candidates. Returns how many of
-/// them, the first, are known to cross, by signs that are not zero.
+/// Decides candidates, and appends pairs that intersect to `hits`, in an order that depends on the
+/// candidates alone.
+///
+/// Returns how many of these, the first ones, are known to cross, by signs that are not zero.
 pub(in crate::queries) fn decide<S: Coordinate>(
     leaves: &LeafTest<S>,
     candidates: &mut Buffer<Candidate>,
@@ -63,7 +65,7 @@ pub(in crate::queries) fn decide<S: Coordinate>(
     let crossing = hits.len() - hits_before;
     let exact = &mut statistics.exact_decisions;
     for &[a, b] in undecided.uncertain.as_slice() {
-        // One of these may take microseconds, and there may be thousands.
+        // One exact decision may take microseconds, and there may be thousands.
         if leaves.interrupt.is_set() {
             break;
         }
@@ -80,14 +82,14 @@ pub(in crate::queries) fn decide<S: Coordinate>(
     crossing
 }
 
-/// Which of each eight lanes are used by so many items: all, and in the last the first few.
+/// Masks of the lanes in use for `count` items: all eight, and in the last group the first few.
 fn lanes_used(count: usize) -> impl Iterator<Item = u8> {
     (0..count)
         .step_by(8)
         .map(move |first| 0xff >> (8 - (count - first).min(8)))
 }
 
-/// Leaves out the pairs of which one lies on one side of the other's plane.
+/// Step 1: rejects pairs of which one triangle lies on one side of the other's plane.
 #[inline(always)]
 fn by_planes<I: Simd, S: Coordinate>(
     i: I,
@@ -99,7 +101,7 @@ fn by_planes<I: Simd, S: Coordinate>(
         uncertain,
     }: &mut Undecided,
 ) {
-    let mut corners = Corners {
+    let mut corners = TrianglePairs {
         positions: [shapes[0].positions, shapes[1].positions],
         vertices: [[TreeVertex(0); 6]; 8],
     };
@@ -115,7 +117,8 @@ fn by_planes<I: Simd, S: Coordinate>(
     let positive = u64::from_le_bytes([a0, a1, a2, b0, b1, b2, 0, 0]);
     let not_apart = !signs.apart & lanes;
     room.push_bits(u64::from(not_apart & signs.certain), |lane| {
-        // Byte k of the product's factor is 0 or 1; the multiplier moves it to bit k of the highest byte.
+        // Byte k of this factor is 0 or 1. The multiplier moves it to bit k of the product's
+        // highest byte.
         let bits = positive >> (lane % 8) & 0x0101_0101_0101_0101;
         Crossing {
             candidate: candidates[lane as usize % 8],
@@ -134,20 +137,22 @@ fn keep(candidates: &[Candidate; 8], lanes: u8, kept: &mut Buffer<Candidate>) {
     }
 }
 
-/// By which of three corners lie above a plane (not none or all, which are never asked for): the
-/// one that is alone on its side.
+/// Corner that is alone on its side of a plane, by the mask of the corners above it. Never asked
+/// for none or all.
 const ALONE: [usize; 8] = [0, 0, 1, 2, 2, 1, 0, 0];
 
 /// Bit `above` is set if the corner that is alone lies below.
 const ALONE_IS_BELOW: u8 = 1 << 3 | 1 << 5 | 1 << 6;
 
-/// By [`Crossing::above`]: which corners, of A 0, 1 and 2, of B 3, 4 and 5, are p1 q1 r1 p2 q2 r2.
+/// Corners that are p1 q1 r1 p2 q2 r2, by [`Crossing::above`]. Numbers 0, 1 and 2 are A's, 3, 4 and
+/// 5 are B's.
 const IN_ORDER: [[u8; 6]; 64] = {
     let mut orders = [[0; 6]; 64];
     let mut above = 0;
     while above < 64 {
         let (above_a, above_b) = (above & 7, above >> 3);
-        // The corner of the other that is alone is to lie above; a triangle seen from its other side is the same triangle.
+        // The other triangle's lone corner must lie above. A triangle seen from its other side is
+        // the same triangle.
         let turn_a = 1 + (ALONE_IS_BELOW >> above_b & 1) as usize;
         let turn_b = 1 + (ALONE_IS_BELOW >> above_a & 1) as usize;
         let mut corner = 0;
@@ -161,7 +166,13 @@ const IN_ORDER: [[u8; 6]; 64] = {
     orders
 };
 
-/// Decides pairs that cross each other's planes.
+/// Step 2: decides pairs that cross each other's planes (Guigue and Devillers 2003).
+///
+/// If no plane sign is zero, each triangle has one corner alone on its side of the other's plane.
+/// Both triangles then meet the line of the two planes in a segment. Let p1 and p2 be these
+/// corners, and q and r the others in order. They are exchanged where p would lie below the plane
+/// of the other triangle. The segments overlap if and only if neither `p1 q1 p2 q2` nor
+/// `p1 r1 r2 p2` is positively oriented.
 #[inline(always)]
 fn by_lines<I: Simd, S: Coordinate>(
     i: I,
@@ -171,7 +182,7 @@ fn by_lines<I: Simd, S: Coordinate>(
     uncertain: &mut Buffer<Candidate>,
     hits: &mut Buffer<Candidate>,
 ) {
-    let mut corners = Corners {
+    let mut corners = TrianglePairs {
         positions: [shapes[0].positions, shapes[1].positions],
         vertices: [[TreeVertex(0); 6]; 8],
     };

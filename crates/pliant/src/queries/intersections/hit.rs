@@ -1,26 +1,26 @@
-//! Pairs of triangles, as callers get them.
+//! Pairs of triangles as callers get them.
 
 use crate::ids::BodyId;
 use crate::sort::{Hit, Numbered};
 
 /// Two triangles that intersect, of two bodies or of one.
 ///
-/// Pairs are ordered by their fields. The smaller (body, triangle) is first; but of two bodies that the query names, the one that is
-/// named first.
+/// Ordered by its fields. The smaller (body, triangle) is first. But if the query names two bodies,
+/// the one named first is first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Pair {
-    /// The first body.
+    /// Body of the first triangle.
     pub body_a: BodyId,
-    /// Its triangle, as the caller numbers it.
+    /// First triangle, with the caller's number.
     pub triangle_a: u32,
-    /// The second body; the first again in a body that meets itself.
+    /// Body of the second triangle. It equals `body_a` in a body that meets itself.
     pub body_b: BodyId,
-    /// Its triangle, as the caller numbers it.
+    /// Second triangle, with the caller's number.
     pub triangle_b: u32,
 }
 
 impl Pair {
-    /// The two triangles without their bodies, for queries in which these are known.
+    /// The two triangles without their bodies, for queries in which the bodies are known.
     pub fn triangles(&self) -> [u32; 2] {
         [self.triangle_a, self.triangle_b]
     }

@@ -1,7 +1,8 @@
-//! Triangles that intersect, as closed sets: exactly, as `pliant_exact` says, on the shape of now.
+//! Intersections: triangles that intersect as closed sets in the present shape, decided exactly.
 //!
-//! Within a body, triangles that share a vertex of the mesh are left out: they always touch. `eight` decides candidates side by side on
-//! signs that single precision makes certain, and leaves few to `pliant_exact`.
+//! `pliant_exact` defines them. Within a body, triangles that share a vertex of the mesh are left
+//! out: they always touch. `eight` decides candidates side by side on signs that single precision
+//! makes certain, and leaves few to `pliant_exact`.
 
 pub(super) mod eight;
 mod hit;
@@ -13,7 +14,7 @@ use eight::Undecided;
 pub use hit::Pair;
 use std::marker::PhantomData;
 
-/// Pairs of triangles that intersect.
+/// Kind of query: pairs of triangles that intersect.
 #[derive(Debug)]
 pub(crate) struct Intersections<S> {
     scalar: PhantomData<S>,

@@ -1,13 +1,14 @@
-//! Groups of vertices that do not meet each other: those that are pinned, or glued together.
+//! Collision groups of vertices that do not meet each other, such as pinned or glued vertices.
 //!
-//! Two vertices of one group do not meet; those of group 0 meet all. A pair of elements is left out only if every vertex of the one is
-//! kept from every vertex of the other: if all of them are of one group. So each element has a group, that of all its vertices or 0.
+//! Two vertices of one group do not meet. Vertices of group 0 meet all. A pair of elements is left
+//! out only if no vertex of one meets any vertex of the other: all are of one group. So each
+//! element has a group: the common group of all its vertices, or 0.
 
 use crate::held::held;
 use crate::ids::TreeVertex;
 use crate::mesh::{Elements, Order};
 
-/// The groups of a body's elements, in tree order.
+/// Groups of a body's elements, in tree order.
 #[derive(Clone, Debug)]
 pub(crate) struct Groups {
     pub(in crate::queries) vertices: Vec<u32>,
@@ -16,7 +17,7 @@ pub(crate) struct Groups {
 }
 
 impl Groups {
-    /// `of_vertices`: as the caller orders vertices.
+    /// Groups of all elements, from the groups of vertices in the caller's order.
     pub(crate) fn new(of_vertices: &[u32], order: &Order, elements: &Elements) -> Self {
         let in_order = order.vertex_order().iter();
         let vertices: Vec<u32> = in_order
@@ -43,7 +44,7 @@ impl Groups {
     }
 }
 
-/// Whether elements of these groups meet.
+/// Whether elements of these two groups meet.
 #[inline(always)]
 pub(in crate::queries) fn meet(a: u32, b: u32) -> bool {
     a == 0 || a != b

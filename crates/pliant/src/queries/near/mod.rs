@@ -1,4 +1,5 @@
-//! Boxes of elements, beside those of the tree: vertices, edges and triangles by runs of up to eight triangles.
+//! Boxes of elements, beside the boxes of the tree: vertices, edges and triangles, by runs of up to
+//! eight triangles.
 
 pub(super) mod groups;
 mod near_boxes;

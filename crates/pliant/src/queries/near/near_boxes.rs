@@ -1,4 +1,4 @@
-//! The boxes of all elements of a body, each kind once somebody asks for it.
+//! Boxes of all elements of a body, made for a kind of element when a query first needs it.
 
 use super::groups::Groups;
 use super::removed::Removed;
@@ -10,14 +10,14 @@ use crate::mesh::{Elements, TriangleRun};
 use crate::threads::Executor;
 use crate::tree::{Leaves, Version};
 
-/// Which elements a kind of query looks at.
+/// Kinds of elements that a kind of query looks at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Which {
     VerticesAndTriangles,
     Edges,
 }
 
-/// The boxes of a body's elements.
+/// Boxes of a body's elements.
 #[derive(Debug, Default)]
 pub(crate) struct NearBoxes {
     pub(in crate::queries) vertices: Option<RunBoxes<1>>,
@@ -25,19 +25,20 @@ pub(crate) struct NearBoxes {
     pub(in crate::queries) edges: Option<RunBoxes<2>>,
 }
 
-/// The vertices and edges of a body, and their boxes.
+/// Vertices and edges of a body, and their boxes.
 #[derive(Clone, Copy)]
 pub(crate) struct NearElements<'q> {
     pub(crate) edges: &'q Elements,
     pub(crate) boxes: &'q NearBoxes,
-    /// None where all vertices meet.
+    /// Collision groups of the elements. None where all vertices meet.
     pub(crate) groups: Option<&'q Groups>,
-    /// None where nothing was taken out.
+    /// Removed triangles and vertices. None where nothing was removed.
     pub(crate) removed: Option<Removed<'q>>,
 }
 
 impl NearBoxes {
-    /// Makes boxes, unless they are those of this version. Returns false if it was interrupted.
+    /// Makes the boxes of some kinds of elements, unless they are already of this version. Returns
+    /// false if interrupted.
     pub(crate) fn make<S: Coordinate>(
         &mut self,
         which: Which,

@@ -1,12 +1,12 @@
-//! What an edit has taken out of a mesh, and its trees still hold.
+//! Triangles and vertices that edits have removed from a mesh, and its trees still hold.
 
 use crate::ids::{TreeTriangle, TreeVertex};
 use crate::mesh::Bits;
 
-/// What was taken out of a mesh and is still in its trees.
+/// Removed triangles and vertices that are still in the trees.
 #[derive(Clone, Copy)]
 pub(crate) struct Removed<'q> {
-    /// In tree order.
+    /// Removed triangles, in tree order.
     pub(crate) triangles: &'q Bits,
     /// Vertices that no triangle has any more, in tree order.
     pub(crate) vertices: &'q Bits,

@@ -1,7 +1,9 @@
-//! The boxes of the vertices, edges or triangles that belong to runs of triangles: those of a run side by side, by eights.
+//! Boxes of the elements (vertices, edges or triangles) of runs of triangles, eight side by side.
 //!
-//! Runs are the blocks of a tree's leaves, or its triangles where every leaf is one. Boxes are made for all runs of a body at once, the first
-//! time that a shape, or a motion, is asked about: by as many threads as there are. They do not depend on the margin.
+//! Runs are the blocks of a tree's leaves, or its triangles where every leaf is one. All boxes of a
+//! body are made at once, by all threads, the first time that a shape, or a motion, is asked about.
+//! They do not depend on the margin. Pairs of runs are compared by their hulls, then elements with
+//! hulls, then eight elements with each that is left.
 
 use crate::geometry::{Aabb, Points, Shape, larger};
 use crate::held::{self, Held};
@@ -13,30 +15,31 @@ use crate::threads::{Executor, Grain};
 use crate::tree::Version;
 use std::ops::Range;
 
-/// Where the vertices of a body are, and where at the end of a motion, if it has one.
+/// Positions of a body's vertices, and positions at the end of its motion, if it has one.
 pub(crate) type Ends<'p, S> = (&'p Shape<'p, S>, Option<&'p Points<S>>);
 
-/// The boxes of the elements of one kind of a body, which have `C` corners each.
+/// Boxes of a body's elements of one kind, with `C` corners each, by runs of triangles.
 #[derive(Debug)]
 pub(crate) struct RunBoxes<const C: usize> {
-    /// What they were made of; none before the first time, and after one that was interrupted.
+    /// Version of the source. None before the first time, and after an interruption.
     version: Option<Version>,
     runs: Vec<Run>,
     eights: Vec<ElementEight<C>>,
-    /// The largest coordinate.
+    /// The largest coordinate, relative to the origin.
     most: f32,
 }
 
-/// All that is asked of a run before its elements are, side by side.
+/// Hull of a run's elements and where they are: all that is needed before single elements are
+/// compared.
 #[derive(Debug)]
 struct Run {
-    /// The box of all elements.
+    /// Box of all elements.
     hull: PaddedBox,
-    /// Its first eight.
+    /// Number of the first group of eight.
     first: u32,
-    /// Its elements: from this number on,
+    /// Number of the first element.
     start: u32,
-    /// so many.
+    /// Number of elements.
     count: u32,
 }
 
@@ -52,11 +55,11 @@ impl Run {
 #[derive(Debug)]
 struct ElementEight<const C: usize> {
     boxes: EightBoxes,
-    /// Those that are missing to the last eight of a run are its first again.
+    /// Corners by lane. A run's last group is filled up with its own first element.
     corners: EightCorners<C>,
 }
 
-/// Some runs and their elements.
+/// Some runs and their elements, for one thread.
 struct Job<'b, const C: usize> {
     runs: &'b mut [Run],
     eights: &'b mut [ElementEight<C>],
@@ -64,7 +67,9 @@ struct Job<'b, const C: usize> {
 }
 
 impl<const C: usize> RunBoxes<C> {
-    /// For runs to which these elements belong, which have these corners. Those of a run are numbered in a row, but runs in any order.
+    /// Boxes to be made, for runs with these elements, which have these corners.
+    ///
+    /// The elements of a run are numbered in a row, but runs are in any order.
     pub(crate) fn new(
         elements_of: impl ExactSizeIterator<Item = Range<u32>>,
         corners_of: impl Fn(u32) -> [TreeVertex; C],
@@ -107,7 +112,8 @@ impl<const C: usize> RunBoxes<C> {
         }
     }
 
-    /// Makes all boxes, unless they are those of this version. Returns false if it was interrupted.
+    /// Makes all boxes, unless they are already of this version. Returns false if interrupted.
+    /// O(elements).
     pub(crate) fn make<S: Coordinate>(
         &mut self,
         version: Version,
@@ -138,7 +144,7 @@ impl<const C: usize> RunBoxes<C> {
                     run.hull = hull.into();
                     for side in [hull.lo, hull.hi] {
                         for x in side {
-                            // Of a run without elements it is no number, and passed over.
+                            // A run without elements has NaN, which is skipped.
                             job.most = larger(job.most, x.abs());
                         }
                     }
@@ -154,12 +160,12 @@ impl<const C: usize> RunBoxes<C> {
         true
     }
 
-    /// The largest coordinate, relative to the origin, of any box.
+    /// The largest coordinate of any box, relative to the origin.
     pub(in crate::queries) fn most(&self) -> f32 {
         self.most
     }
 
-    /// The elements of a run and their boxes.
+    /// Elements of a run, and their boxes.
     #[inline(always)]
     pub(in crate::queries) fn run(&self, run: u32) -> ElementRun<'_, C> {
         let run = &self.runs[run as usize];
@@ -168,7 +174,7 @@ impl<const C: usize> RunBoxes<C> {
     }
 }
 
-/// Makes the boxes of the elements of a run; returns the box of all.
+/// Makes the boxes of a run's elements. Returns their union.
 #[inline(always)]
 fn make_run<I: Simd, S: Coordinate, const C: usize>(
     i: I,
@@ -188,21 +194,21 @@ fn make_run<I: Simd, S: Coordinate, const C: usize>(
     all
 }
 
-/// So many pairs of runs are looked at in a row.
+/// Pairs of runs that are compared by their hulls in a row, before elements are.
 pub(in crate::queries) const RUNS_AT_ONCE: usize = 32;
 
-/// Which runs of two bodies, or of one, are looked at.
+/// Pairs of runs, of two bodies or of one, to be compared.
 #[derive(Clone, Copy)]
 pub(in crate::queries) struct RunPairs<'p> {
-    /// There are no more than [`RUNS_AT_ONCE`].
+    /// Pairs of runs, at most [`RUNS_AT_ONCE`].
     pub(in crate::queries) pairs: &'p [[u32; 2]],
-    /// The place in a pair of the run that comes first here.
+    /// Place in each pair of the run that comes first here.
     pub(in crate::queries) first: usize,
-    /// Whether a run is not looked at with itself.
+    /// Whether to leave out a run with itself.
     pub(in crate::queries) without_itself: bool,
 }
 
-/// Keeps pairs of runs the boxes of whose elements are possibly near each other.
+/// Keeps the pairs of runs whose hulls are possibly near each other.
 #[inline(always)]
 pub(in crate::queries) fn near_runs<'k, I: Simd, const C: usize, const D: usize>(
     i: I,
@@ -218,7 +224,8 @@ pub(in crate::queries) fn near_runs<'k, I: Simd, const C: usize, const D: usize>
             &a.runs[pair[0] as usize].hull,
             &b.runs[pair[1] as usize].hull,
         ];
-        // Whether they are cannot be predicted. The box of no element is no number, and near nothing.
+        // A branch on that could not be predicted. The hull of no elements is NaN, and near
+        // nothing.
         kept[count] = pair;
         let is_left_out = runs.without_itself & (pair[0] == pair[1]);
         count += usize::from(limits.are_possibly_near(i, a, b) & !is_left_out);
@@ -226,38 +233,43 @@ pub(in crate::queries) fn near_runs<'k, I: Simd, const C: usize, const D: usize>
     &kept[..count]
 }
 
-/// The elements of one kind that belong to a run of triangles, and their boxes.
+/// Elements of one kind that belong to a run of triangles, and their boxes.
 pub(in crate::queries) struct ElementRun<'b, const C: usize> {
     run: &'b Run,
     eights: &'b [ElementEight<C>],
 }
 
 impl<const C: usize> ElementRun<'_, C> {
-    /// The first of its elements that belongs to the eight with this place.
+    /// First element of the group of eight at this place.
     #[inline(always)]
     fn element(&self, eight: usize) -> u32 {
         self.run.start + 8 * eight as u32
     }
 
-    /// A bit for each of its elements.
+    /// Mask with a bit for each element.
     #[inline(always)]
     fn all(&self) -> u32 {
         (1 << self.run.count) - 1
     }
 
-    /// Which elements are possibly near a box: bit i for the i-th.
+    /// Bit mask of the elements that are possibly near a box.
     #[inline(always)]
     fn near<I: Simd>(&self, i: I, other: &PaddedBox, limits: Limits) -> u32 {
         let mut near = 0;
-        // In one number: a list of masks would be written byte by byte and read as one, which processors wait for.
+        // One number: a list of masks would be written byte by byte and read as one, which stalls
+        // processors.
         for (place, eight) in self.eights.iter().enumerate() {
             near |= (gaps::near_box(i, &eight.boxes, other, limits) as u32) << (8 * place);
         }
         near & self.all()
     }
 
-    /// Shows `found` the pairs of elements, one of either run, that are possibly near each other and those that surely are, as bits
-    /// 8 i + j of two masks, behind the numbers of the first elements. Of one body those that have no corner in common.
+    /// Shows `found` the pairs of elements, one of either run, that are possibly near each other.
+    ///
+    /// `found` gets the numbers of the first elements and two masks, with bit `8 i + j` for the
+    /// elements i and j behind these. The first mask marks the pairs that are possibly near, the
+    /// second the pairs that surely are. Within one body, elements that share a corner are left
+    /// out.
     #[inline(always)]
     pub(in crate::queries) fn compare<I: Simd, const D: usize>(
         &self,
@@ -268,7 +280,7 @@ impl<const C: usize> ElementRun<'_, C> {
         mut found: impl FnMut([u32; 2], u64, u64),
     ) {
         let rows = self.near(i, &other.run.hull, limits);
-        // Where all are side by side, asking which are near is as much work as a row.
+        // Where all elements are in one group, finding the near ones takes as much work as a row.
         let columns = if other.eights.len() == 1 {
             other.all()
         } else {
@@ -288,7 +300,7 @@ impl<const C: usize> ElementRun<'_, C> {
                 let of_b = (&eight_b.boxes, &eight_b.corners);
                 let (mut near, is_unsure) =
                     gaps::near_pairs(i, of_a, rows, of_b, is_one_body, limits);
-                // A byte of it for each row.
+                // The mask of columns, repeated in each byte, one a row.
                 near &= columns * 0x0101_0101_0101_0101;
                 if near != 0 {
                     let sure = if is_unsure {
@@ -302,7 +314,10 @@ impl<const C: usize> ElementRun<'_, C> {
         }
     }
 
-    /// Shows `found` the pairs of its elements that are possibly near each other and have no corner in common, and whether they surely are.
+    /// Shows `found` the pairs of elements of this run that are possibly near each other, and
+    /// whether they surely are.
+    ///
+    /// Elements that share a corner are left out.
     #[inline(always)]
     pub(in crate::queries) fn compare_within<I: Simd>(
         &self,

@@ -1,12 +1,13 @@
-//! The boxes of all nodes of a tree, those of one wide node side by side: as many as the degree is.
+//! Boxes of all nodes of a tree in lanes: the one place where the degree is matched on.
 //!
-//! This is the door of the degree. Whoever reads or writes boxes of nodes matches on it here, once a batch.
+//! The boxes of a wide node lie side by side, as many as the degree. Whoever reads or writes boxes
+//! of nodes matches on the degree here, once a batch.
 
 use crate::geometry::Aabb;
 use crate::ids::{NodeId, WideNodeId};
 use crate::kernels::{BoxLanes, Instructions, dispatch, near_mask};
 
-/// The boxes of every wide node's nodes.
+/// Boxes of every wide node's nodes, for one of three degrees.
 #[derive(Debug)]
 pub(crate) enum NodeLanes {
     Two(Vec<BoxLanes<2>>),
@@ -14,9 +15,9 @@ pub(crate) enum NodeLanes {
     Eight(Vec<BoxLanes<8>>),
 }
 
-/// Compiles an expression for every degree: what it calls `$boxes` is the list of that degree.
+/// Compiles an expression for every degree; in it, `$boxes` is the list of that degree.
 macro_rules! of_degree {
-    // Of two trees of one degree.
+    // Two trees of one degree.
     ([$a:expr, $b:expr], $boxes:ident => $body:expr) => {
         match ($a, $b) {
             ($crate::tree::NodeLanes::Two(a), $crate::tree::NodeLanes::Two(b)) => {
@@ -45,7 +46,7 @@ macro_rules! of_degree {
 pub(crate) use of_degree;
 
 impl NodeLanes {
-    /// Of so many wide nodes, all empty.
+    /// Allocates lanes for `count` wide nodes, all empty.
     pub(super) fn new(degree: usize, count: usize) -> Self {
         match degree {
             2 => Self::Two(vec![BoxLanes::EMPTY; count]),
@@ -54,14 +55,15 @@ impl NodeLanes {
         }
     }
 
-    /// The box of one node.
+    /// Returns the box of one node.
     #[inline]
     pub(crate) fn one(&self, node: NodeId) -> Aabb {
         let (wide_node, lane) = node.wide_node_and_lane();
         of_degree!(self, boxes => boxes[wide_node.index()].get(lane))
     }
 
-    /// Shows the longest side of the box of each node of a wide node; of lanes that are not used no number.
+    /// Calls `show` with each lane of a wide node and the longest side of its box; NaN for unused
+    /// lanes.
     #[inline]
     pub(crate) fn longest_sides(&self, wide_node: WideNodeId, mut show: impl FnMut(usize, f32)) {
         of_degree!(self, boxes => {
@@ -70,7 +72,7 @@ impl NodeLanes {
         });
     }
 
-    /// As `near_mask`, of two wide nodes.
+    /// Calls `kernels::near_mask` with two wide nodes.
     pub(crate) fn near_mask(
         both: [&Self; 2],
         wide_nodes: [WideNodeId; 2],

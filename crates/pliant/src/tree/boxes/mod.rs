@@ -1,12 +1,10 @@
-//! A set of boxes of a tree: of its nodes, and of the triangles in its leaves.
+//! Sets of boxes: a tree's boxes of nodes and triangles from one source, each valid or stale.
 //!
-//! The structure of a tree never changes between builds; its boxes do, and it may have more than one set of them, each made from a
-//! [`BoxSource`] of its own: the shape that the body has now, say, or that shape grown by a distance. A set knows the [`Version`] of the
-//! source that it was last asked for. Each time that changes it begins a new *stamp*; a wide node, and a leaf for the boxes of its
-//! triangles, carries the stamp with which these were made, and is **valid** only if that is the stamp of the set, else **stale**.
-//!
-//! Two rules hold at all times: nothing reads a stale box, and the wide node above a valid one, or above a valid leaf, is valid.
-//! `update` makes them valid, `traversal` asks for it, `validate` checks it.
+//! A tree may have several sets, each from a [`BoxSource`] of its own: the current shape, or that
+//! shape grown by a distance. A set knows the [`Version`] of its source that it was last asked for,
+//! and begins a new *stamp* when this changes. A box is **valid** if it was made with the set's
+//! stamp, else **stale**. Two rules hold at all times: no stale box is read, and above a valid box
+//! all are valid. `update` makes boxes valid, `traversal` asks for it, `validate` checks it.
 
 mod lanes;
 mod source;
@@ -18,27 +16,33 @@ use crate::kernels::{BoxLanes, EightBoxes, QuantizedLanes};
 pub(crate) use lanes::{NodeLanes, of_degree};
 pub(crate) use source::{BoxSource, Grown, Over, Source, Version, of_source};
 
-/// Before every stamp.
+/// Stamp before every stamp of a set: a box that was never made.
 const NEVER: u64 = 0;
 
-/// The boxes of one tree, from one source.
+/// Boxes of one tree from one source, with the stamps with which they were made.
+///
+/// Stamps are of a wide node, for the boxes of its nodes, and of a leaf, for the boxes of its
+/// triangles.
 #[derive(Debug)]
 pub(crate) struct BoxSet {
     version: Option<Version>,
     stamp: u64,
-    /// Of every wide node the boxes of its nodes, and the stamp with which they were made.
+    /// Boxes of the nodes of every wide node.
     nodes: NodeLanes,
+    /// Stamp of every wide node.
     node_stamps: Vec<u64>,
-    /// Of every block the boxes of its triangles, and of every leaf the stamp with which those of all its blocks were made. None where
-    /// every leaf is one triangle.
+    /// Boxes of the triangles of every block; none where every leaf is one triangle.
     blocks: Vec<EightBoxes>,
+    /// Stamp of every leaf, for all its blocks.
     leaf_stamps: Vec<u64>,
-    /// The stamp with which the nodes of all wide nodes were last made at once, and the triangles of all leaves.
+    /// Stamp with which the nodes of all wide nodes were last made at once.
     complete_nodes: u64,
+    /// Stamp with which the triangles of all leaves were last made at once.
     complete_leaves: u64,
     /// How many leaves had the boxes of their triangles made since this was last asked.
     reached: usize,
-    /// The boxes of triangles once more, quantized; none but in a body that meets itself and whose leaves are blocks.
+    /// Quantized boxes of triangles, for a body that meets itself and whose leaves are blocks; else
+    /// none.
     quantized: Quantized,
 }
 
@@ -46,39 +50,41 @@ pub(crate) struct BoxSet {
 #[derive(Debug, Default)]
 pub(crate) struct Quantized {
     pub(crate) blocks: Vec<QuantizedLanes>,
-    /// Units to a length of one; those for the next time.
+    /// Units to a length of one; kept for the next step.
     pub(crate) units: f32,
-    /// The stamp with which all of them were made.
+    /// Stamp with which all of them were made.
     stamp: u64,
 }
 
 impl Quantized {
-    /// Those of a block.
+    /// Returns the quantized boxes of a block.
     #[inline(always)]
     pub(crate) fn of(&self, block: BlockId) -> &QuantizedLanes {
         &self.blocks[block.index()]
     }
 }
 
-/// The boxes of the triangles of all blocks.
+/// Boxes of the triangles of all blocks.
 #[derive(Clone, Copy)]
 pub(crate) struct BlockBoxes<'b>(&'b [EightBoxes]);
 
 impl<'b> BlockBoxes<'b> {
+    /// Returns the boxes of a block.
     #[inline(always)]
     pub(crate) fn of(self, block: BlockId) -> &'b EightBoxes {
         &self.0[block.index()]
     }
 }
 
-/// A run of what a set holds of its wide nodes, to write: boxes and stamps from the wide node `first` on.
+/// Mutable run of the boxes and stamps of wide nodes, from the wide node `first` on.
 pub(crate) struct NodesMut<'b, const N: usize> {
     pub(crate) first: usize,
     pub(crate) boxes: &'b mut [BoxLanes<N>],
     pub(crate) stamps: &'b mut [u64],
 }
 
-/// A run of what a set holds of its leaves, to write: blocks from `first_block` on, stamps from `first_leaf` on.
+/// Mutable run of the boxes and stamps of leaves: blocks from `first_block` on, stamps from
+/// `first_leaf` on.
 pub(crate) struct LeavesMut<'b> {
     pub(crate) first_leaf: usize,
     pub(crate) stamps: &'b mut [u64],
@@ -87,7 +93,7 @@ pub(crate) struct LeavesMut<'b> {
 }
 
 impl BoxSet {
-    /// Boxes for a tree, all of them stale.
+    /// Allocates boxes for a tree, all stale.
     pub(crate) fn new(tree: &Tree) -> Self {
         let blocks = tree.leaves.block_count();
         let leaves = if blocks > 0 { tree.leaves.len() } else { 0 };
@@ -105,7 +111,7 @@ impl BoxSet {
         }
     }
 
-    /// From now on only boxes made from this version of a source are valid.
+    /// Makes only boxes from this version of the source valid from now on.
     pub(crate) fn expect(&mut self, version: Version) {
         if self.version != Some(version) {
             self.version = Some(version);
@@ -113,18 +119,19 @@ impl BoxSet {
         }
     }
 
-    /// All boxes are stale, whatever is expected next: some of them may have been left half made.
+    /// Makes all boxes stale, whatever is expected next: an interrupted query may have left some
+    /// half made.
     pub(crate) fn forget(&mut self) {
         self.version = None;
     }
 
-    /// The stamp of boxes that are made now.
+    /// Returns the stamp of boxes that are made now.
     #[inline]
     pub(crate) fn stamp(&self) -> u64 {
         self.stamp
     }
 
-    /// By how much those that are valid are grown.
+    /// Returns the distance by which valid boxes are grown.
     pub(crate) fn grown_by(&self) -> f32 {
         self.version.map_or(0.0, Version::grown_by)
     }
@@ -134,17 +141,18 @@ impl BoxSet {
         self.version == Some(version)
     }
 
-    /// Whether the boxes of a wide node are those of a version.
+    /// Whether the boxes of a wide node are valid and of this version.
     pub(crate) fn holds(&self, wide_node: WideNodeId, version: Version) -> bool {
         self.expects(version) && self.is_valid(wide_node)
     }
 
+    /// Whether the boxes of a wide node are valid.
     #[inline(always)]
     pub(crate) fn is_valid(&self, wide_node: WideNodeId) -> bool {
         self.node_stamps[wide_node.index()] == self.stamp
     }
 
-    /// Whether the boxes of a leaf's triangles are valid; they are if it has none.
+    /// Whether the boxes of a leaf's triangles are valid; also true if there are none.
     pub(crate) fn is_leaf_valid(&self, leaf: LeafId) -> bool {
         self.blocks.is_empty() || self.leaf_stamps[leaf.index()] == self.stamp
     }
@@ -161,50 +169,50 @@ impl BoxSet {
         self.complete_leaves == self.stamp
     }
 
-    /// All nodes are valid now.
+    /// Notes that all nodes are valid.
     pub(crate) fn complete_nodes(&mut self) {
         self.complete_nodes = self.stamp;
     }
 
-    /// All leaves are valid now.
+    /// Notes that all leaves are valid.
     pub(crate) fn complete_leaves(&mut self) {
         self.complete_leaves = self.stamp;
     }
 
-    /// The boxes of nodes, to read those that are valid.
+    /// Returns the boxes of nodes, to read valid ones.
     #[inline(always)]
     pub(crate) fn nodes(&self) -> &NodeLanes {
         &self.nodes
     }
 
-    /// The boxes of nodes and the stamps of wide nodes, to write.
+    /// Returns the boxes of nodes and the stamps of wide nodes, to write.
     pub(crate) fn nodes_mut(&mut self) -> (&mut NodeLanes, &mut [u64]) {
         (&mut self.nodes, &mut self.node_stamps)
     }
 
-    /// The boxes of triangles, to read those that are valid.
+    /// Returns the boxes of triangles, to read valid ones.
     #[inline(always)]
     pub(crate) fn blocks(&self) -> BlockBoxes<'_> {
         BlockBoxes(&self.blocks)
     }
 
-    /// The quantized boxes of triangles, if all are valid.
+    /// Returns the quantized boxes of triangles, if all are valid.
     #[inline]
     pub(crate) fn quantized(&self) -> Option<&Quantized> {
         (self.quantized.stamp == self.stamp).then_some(&self.quantized)
     }
 
-    /// The boxes of triangles, and where these are quantized to.
+    /// Returns the boxes of triangles to read, and the quantized boxes to write.
     pub(crate) fn blocks_and_quantized(&mut self) -> (&[EightBoxes], &mut Quantized) {
         (&self.blocks, &mut self.quantized)
     }
 
-    /// All quantized boxes are valid now.
+    /// Notes that all quantized boxes are valid.
     pub(crate) fn complete_quantized(&mut self) {
         self.quantized.stamp = self.stamp;
     }
 
-    /// Everything, to write: boxes and stamps of nodes, leaves, and quantized boxes.
+    /// Returns everything to write: boxes and stamps of nodes, leaves, and quantized boxes.
     pub(crate) fn all_mut(
         &mut self,
     ) -> (&mut NodeLanes, &mut [u64], LeavesMut<'_>, &mut Quantized) {
@@ -222,19 +230,19 @@ impl BoxSet {
         self.reached += leaves;
     }
 
-    /// How many leaves were counted since this was last asked.
+    /// Returns how many leaves were counted since this was last asked.
     pub(crate) fn take_reached(&mut self) -> usize {
         std::mem::take(&mut self.reached)
     }
 
-    /// All leaves, to write.
+    /// Returns all leaves, to write.
     pub(crate) fn leaves_mut(&mut self) -> LeavesMut<'_> {
         LeavesMut::all(&mut self.leaf_stamps, &mut self.blocks)
     }
 }
 
 impl<'b, const N: usize> NodesMut<'b, N> {
-    /// All wide nodes before `end`, and the boxes of those from there on, to read.
+    /// Returns all wide nodes before `end` to write, and the boxes from `end` on to read.
     pub(crate) fn before(
         boxes: &'b mut [BoxLanes<N>],
         stamps: &'b mut [u64],
@@ -267,6 +275,7 @@ impl<'b, const N: usize> NodesMut<'b, N> {
 }
 
 impl<'b> LeavesMut<'b> {
+    /// The run of all leaves.
     fn all(stamps: &'b mut [u64], blocks: &'b mut [EightBoxes]) -> Self {
         Self {
             first_leaf: 0,

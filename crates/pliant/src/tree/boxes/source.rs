@@ -1,10 +1,12 @@
-//! What boxes are made of.
+//! Sources of boxes over vertices: the shape of a body, or shapes and a distance to grow by.
 //!
-//! A box over some vertices is the least that holds them, in the sense of its source: where they are now; grown by a distance; at both
-//! ends of a motion. The rules that the update relies on hold for every source:
+//! A box over some vertices is the smallest that holds them in the sense of its source. That is:
+//! where they are now, grown by a distance, or at both ends of a motion. The update relies on two
+//! rules that hold for every source:
 //!
-//! - the box over some vertices holds the box over any of them;
-//! - it is the union of boxes over parts of them, so boxes of inner nodes may be merged from those of their children, bit for bit.
+//! - The box over some vertices holds the box over any subset.
+//! - It is the union of boxes over parts, bit for bit. So boxes of inner nodes may be merged from
+//!   their children's.
 //!
 //! Growing keeps both, because rounding is monotonic.
 
@@ -13,19 +15,19 @@ use crate::ids::TreeVertex;
 use crate::kernels::extent::{self, Extent, TWELVE};
 use crate::kernels::{Coordinate, Simd};
 
-/// Which boxes a source gives: two sources of one body give the same if they have the same version.
+/// Version of a source: two sources of one body with equal versions give equal boxes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Version {
-    /// The version of the shape,
+    /// Version of the shape.
     shape: u64,
-    /// and, where boxes hold a second shape as well, that of the second; 0 is before every version.
+    /// Version of the second shape, where boxes hold one as well; 0 is before every version.
     second: u64,
-    /// The bits of the distance by which boxes are grown.
+    /// Bits of the distance by which boxes are grown.
     grown_by: u32,
 }
 
 impl Version {
-    /// By how much boxes are grown.
+    /// Returns the distance by which boxes are grown.
     pub(crate) fn grown_by(self) -> f32 {
         f32::from_bits(self.grown_by)
     }
@@ -34,27 +36,30 @@ impl Version {
 /// Vertices that one box is over.
 #[derive(Clone, Copy)]
 pub(crate) enum Over<'v> {
-    /// A run of vertices, from the first to the end, and some others; there is one at least.
+    /// A run of vertices, from the first to the end, and some others; at least one vertex.
     Run([usize; 2], &'v [TreeVertex]),
     /// Twelve vertices: as many as most leaves have.
     Twelve(&'v [TreeVertex; TWELVE]),
-    /// The corners of a triangle.
+    /// Corners of a triangle.
     Triangle([TreeVertex; 3]),
 }
 
-/// Gives the box over any vertices of a body.
+/// Source of boxes: gives the box over any vertices of a body.
 pub(crate) trait BoxSource: Sync {
+    /// The caller's scalar.
     type Scalar: Coordinate;
 
-    /// The shape that the body has now.
+    /// Returns the current shape of the body.
     fn shape(&self) -> &Shape<'_, Self::Scalar>;
 
+    /// Returns the version, which decides whether boxes are valid.
     fn version(&self) -> Version;
 
-    /// The box over some vertices.
+    /// Returns the box over some vertices.
     fn over<I: Simd>(&self, i: I, vertices: Over) -> Extent<I>;
 
-    /// The meaning of that, one vertex after the other.
+    /// Returns the box over some vertices, one after the other: the reference for
+    /// [`over`](Self::over).
     fn plainly(&self, vertices: impl Iterator<Item = TreeVertex> + Clone) -> Aabb;
 }
 
@@ -89,8 +94,9 @@ impl<S: Coordinate> BoxSource for Shape<'_, S> {
     }
 }
 
-/// Boxes that hold a shape and the one at the end of a motion, if there is one, grown by a distance
-/// on every side, and a little more where that is not exact.
+/// Source of grown boxes: over a shape and the end of a motion, if there is one.
+///
+/// Boxes are grown by a distance on every side, and a little more where that is not exact.
 #[derive(Clone, Copy)]
 pub(crate) struct Grown<'s, S> {
     pub(crate) from: Shape<'s, S>,
@@ -133,7 +139,7 @@ impl<S: Coordinate> BoxSource for Grown<'_, S> {
     }
 }
 
-/// What a set of boxes of one body is made of: the shape; or the shape and perhaps the end of a motion, grown.
+/// Source of a set of boxes of one body: its shape, or grown boxes over its shape and motion.
 ///
 /// Whoever makes boxes matches on it once a batch, with `of_source`.
 #[derive(Clone, Copy)]
@@ -154,12 +160,13 @@ macro_rules! of_source {
 pub(crate) use of_source;
 
 impl<'s, S: Coordinate> Source<'s, S> {
-    /// Boxes that are grown hold the end of a motion, if there is one.
+    /// Chooses the source. Grown boxes hold the end of a motion, if there is one.
     pub(crate) fn new(from: Shape<'s, S>, to: Option<Shape<'s, S>>, grows_by: Option<f32>) -> Self {
         let grown = |distance| Grown { from, to, distance };
         grows_by.map_or(Self::Shape(from), |distance| Self::Grown(grown(distance)))
     }
 
+    /// Returns the current shape of the body.
     #[inline]
     pub(crate) fn shape(&self) -> &Shape<'s, S> {
         match self {
@@ -168,7 +175,7 @@ impl<'s, S: Coordinate> Source<'s, S> {
         }
     }
 
-    /// The shape at the end of a motion, if boxes hold that too.
+    /// Returns the shape at the end of a motion, if boxes hold it too.
     #[inline]
     pub(crate) fn end(&self) -> Option<&Shape<'s, S>> {
         match self {
@@ -177,6 +184,7 @@ impl<'s, S: Coordinate> Source<'s, S> {
         }
     }
 
+    /// Returns the version, which decides whether boxes are valid.
     pub(crate) fn version(&self) -> Version {
         of_source!(self, source => source.version())
     }
@@ -188,7 +196,7 @@ mod tests {
     use crate::geometry::Points;
     use crate::kernels::{Instructions, dispatch};
 
-    /// All kernels of a source give what it means.
+    /// Checks that all kernels of a source give what it means.
     fn check(source: &impl BoxSource) {
         let vertices = |numbers: &[u32]| -> Vec<TreeVertex> {
             numbers.iter().copied().map(TreeVertex).collect()
@@ -196,7 +204,13 @@ mod tests {
         let twelve = [3, 1, 4, 15, 9, 2, 6, 5, 35, 8, 39, 7].map(TreeVertex);
         for instructions in Instructions::all() {
             dispatch!(instructions, i => {
-                for (run, others) in [(4..9, &[][..]), (0..40, &[]), (2..2, &[1]), (5..6, &[0, 8]), (0..3, &[7, 5, 9, 11, 30])] {
+                for (run, others) in [
+                    (4..9, &[][..]),
+                    (0..40, &[]),
+                    (2..2, &[1]),
+                    (5..6, &[0, 8]),
+                    (0..3, &[7, 5, 9, 11, 30]),
+                ] {
                     let others = vertices(others);
                     let run_of = (run.start..run.end).map(|vertex| TreeVertex(vertex as u32));
                     let expected = source.plainly(run_of.chain(others.iter().copied()));
@@ -241,7 +255,7 @@ mod tests {
                 let above = f64::from(outer.hi[axis]) - f64::from(inner.hi[axis]);
                 assert!(below.min(above) >= f64::from(distance));
             }
-            // Versions tell them apart, but for boxes that are grown by nothing.
+            // Versions tell them apart, unless boxes are grown by nothing.
             assert_ne!(from.version(), swept.version());
             assert_ne!(still.version(), swept.version());
             assert_eq!(from.version() == still.version(), distance == 0.0);

@@ -1,9 +1,10 @@
-//! A tree whose lanes are full: every part is cut so that all subtrees but those of the last child hold as many triangles as
-//! fit below them (leaf size x degree^height), so that what is missing to a full tree is missing near the root.
+//! Balanced partition: a tree whose leaves and lanes are full, except near the root.
 //!
-//! A part of n triangles whose children can hold c each gets ceil(n / c) children. They are found by halving: at each
-//! halving the midpoints are divided along the longest side of their box, at the multiple of c nearest the middle. Not in
-//! the paper, whose trees are cut at points of space; on surfaces those leave about half of eight lanes empty.
+//! A node of n triangles whose children can hold c each gets ceil(n / c) children. Children are
+//! found by halving. Each halving divides the midpoints along the longest side of their box, at the
+//! multiple of c nearest the middle. All subtrees except the last child's are full: leaf size x
+//! degree^height triangles. Not in the paper, whose trees are cut at points of space; on surfaces
+//! those leave about half of eight lanes empty.
 
 use super::initial_shape::midpoint;
 use super::{Pieces, Split};
@@ -11,19 +12,20 @@ use crate::geometry::{Bounds, Real};
 use crate::held;
 use crate::threads::Budget;
 
+/// Rule that divides triangles by the median of their midpoints, in multiples of a full subtree.
 pub(crate) struct Balanced {
     midpoints: Vec<[f64; 3]>,
     degree: usize,
     leaf_size: usize,
-    /// Halves of the part at hand that are still to be divided, the first on top: first triangle, length, children. At most
-    /// log2(degree) + 1 of them.
+    /// Stack of the halves of the current node that are still to be divided: first triangle,
+    /// length, children. At most log2(degree) + 1 of them.
     halves: Vec<(usize, usize, usize)>,
-    /// What the triangles of a part are ordered by: a list that is kept from part to part.
+    /// Keys by which the triangles of a node are ordered; the memory is kept from node to node.
     keys: Vec<u128>,
 }
 
 impl Balanced {
-    /// Triangles and positions in the caller's order.
+    /// Takes triangles and positions in the caller's order.
     pub(crate) fn new<S: Real>(
         triangles: &[[u32; 3]],
         positions: &[[S; 3]],
@@ -36,7 +38,7 @@ impl Balanced {
         Self::of_midpoints(midpoints.collect(), degree, leaf_size)
     }
 
-    /// Of triangles by their midpoints.
+    /// Takes the midpoints of triangles.
     pub(crate) fn of_midpoints(midpoints: Vec<[f64; 3]>, degree: usize, leaf_size: u32) -> Self {
         Self {
             midpoints,
@@ -47,7 +49,8 @@ impl Balanced {
         }
     }
 
-    /// How many triangles a child of a part of `count` triangles can hold: the smallest full tree that suffices.
+    /// Returns how many triangles a child of a node of `count` can hold: the smallest full tree
+    /// that suffices.
     fn capacity(&self, count: usize) -> usize {
         let mut capacity = self.leaf_size;
         while capacity * self.degree < count {
@@ -56,7 +59,8 @@ impl Balanced {
         capacity
     }
 
-    /// Orders the triangles so that the first `left` have the smaller midpoints along the longest side.
+    /// Partitions triangles: the first `left` have the smaller midpoints along the longest side.
+    /// O(n).
     fn divide(&mut self, triangles: &mut [u32], left: usize) {
         let (midpoints, keys) = (&self.midpoints, &mut self.keys);
         let midpoint = |triangle: u32| midpoints[triangle as usize];
@@ -75,8 +79,10 @@ impl Balanced {
     }
 }
 
-/// Orders triangles by a coordinate, those with equal ones by number: the tree must not depend on how a selection algorithm treats ties. It is
-/// one integer because comparisons that look up two midpoints were half of what building takes.
+/// Sort key of a triangle: its coordinate, then its number.
+///
+/// Ties are broken by number, so that the tree does not depend on the selection algorithm. One
+/// integer, because comparisons that look up two midpoints were half of the cost of building.
 fn key(coordinate: f64, triangle: u32) -> u128 {
     let bits = coordinate.to_bits();
     // Of negative numbers the larger magnitude is the smaller number.

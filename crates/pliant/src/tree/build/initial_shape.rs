@@ -1,8 +1,9 @@
-//! The paper's initial shape tree (3.2): a part's box is cut at a point, along its longest side (degree 2), its two longest
-//! (4) or all three (8), and each triangle goes where its midpoint lies. Empty sub-volumes get no child.
+//! Initial shape partition of the paper (3.2): each node's box is cut at a point.
 //!
-//! The point is the centre of the box, which the paper prefers, or the mean of the triangles' midpoints. A surface meets
-//! about four octants of a cube, so on surfaces about half of eight lanes stay empty; `Balanced` fills them.
+//! The cut goes along the longest side (degree 2), the two longest (4) or all three (8). Each
+//! triangle goes where its midpoint lies; empty sub-volumes get no child. The point is the centre
+//! of the box, which the paper prefers, or the mean of the midpoints. A surface meets about four
+//! octants of a cube, so about half of eight lanes stay empty. `Balanced` fills them.
 
 use super::{Pieces, Split};
 use crate::geometry::{Bounds, Real};
@@ -10,34 +11,37 @@ use crate::held;
 use crate::threads::Budget;
 use std::borrow::Cow;
 
-/// Where a part is cut.
+/// Point at which a node is cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum CutAt {
-    /// At the centre of the part's box.
+    /// Centre of the node's box.
     Centre,
-    /// At the mean of the part's midpoints.
+    /// Mean of the midpoints of the node's triangles.
     Mean,
 }
 
+/// Rule that divides triangles by the sub-volumes of their box.
 pub(crate) struct InitialShape<'a, S: Copy> {
     triangles: Cow<'a, [[u32; 3]]>,
     positions: Cow<'a, [[S; 3]]>,
     cut: CutAt,
     /// How many sides are cut: the degree is 2 to this power.
     sides: usize,
-    /// Of the part at hand: how many of its triangles were looked at, their box, and the sum of their midpoints.
+    /// Triangles of the current node that were looked at.
     seen: usize,
+    /// Box of these triangles.
     bounds: Bounds<S>,
+    /// Sum of their midpoints.
     sum: [f64; 3],
-    /// Then the sub-volume that each of them is in.
+    /// Sub-volume of each triangle, in a second pass.
     volumes: Vec<(u8, u32)>,
 }
 
-/// Triangles between two looks at the budget.
+/// Triangles between two checks of the budget.
 const AT_ONCE: usize = 1024;
 
 impl<'a, S: Real> InitialShape<'a, S> {
-    /// Triangles and positions in the caller's order.
+    /// Takes triangles and positions in the caller's order.
     pub(crate) fn new(
         triangles: Cow<'a, [[u32; 3]]>,
         positions: Cow<'a, [[S; 3]]>,
@@ -65,7 +69,8 @@ impl<'a, S: Real> InitialShape<'a, S> {
     }
 }
 
-/// The mean of three corners. In `f64`, where neither three coordinates of `f32::MAX` nor 2^28 midpoints can overflow.
+/// Mean of three corners in `f64`, where neither three coordinates of `f32::MAX` nor 2^28 midpoints
+/// overflow.
 pub(crate) fn midpoint<S: Real>([a, b, c]: [[S; 3]; 3]) -> [f64; 3] {
     std::array::from_fn(|axis| (a[axis].to_f64() + b[axis].to_f64() + c[axis].to_f64()) / 3.0)
 }

@@ -1,14 +1,9 @@
-//! How a body's triangles are divided into a tree: plain data, without boxes and without the degree as a type.
+//! Partition of a body's triangles into the nodes of a tree: plain data, without boxes.
 //!
-//! ```text
-//! parts = [all triangles]
-//! for each part, first to last:                       breadth first, so no stack, however deep the tree
-//!     at most `leaf_size` triangles:  it is a leaf
-//!     else split it into 2 to `degree` parts and append them
-//! ```
-//!
-//! One loop, one hook: a [`Split`] reorders the triangles of a part and says where to cut. If it cannot tell the triangles
-//! apart (all midpoints in one place), the loop cuts the order it finds into equal pieces, so every build ends.
+//! One loop, breadth first, without a stack, however deep the tree: see [`Planner`]. One hook: a
+//! [`Split`] reorders the triangles of a node and says where to cut. If it cannot tell the
+//! triangles apart (all midpoints in one place), the loop cuts the order it finds. So every build
+//! ends. The degree is a number here, not a type.
 
 mod balanced;
 mod connectivity;
@@ -21,21 +16,22 @@ pub(crate) use connectivity::Connectivity;
 pub(crate) use initial_shape::{CutAt, InitialShape, midpoint};
 use std::ops::Range;
 
-/// A division of triangles.
+/// Division of triangles: the order of triangles in a tree to be, and its nodes.
 #[derive(Debug)]
 pub(crate) struct Plan {
-    /// Caller's numbers of the triangles, so that every part is a run.
+    /// Caller's numbers of the triangles, so that every node is a run.
     pub(crate) order: Vec<u32>,
-    /// Level by level; the first is the root. Children of one part are neighbours, in the order of their triangles.
-    pub(crate) parts: Vec<Part>,
-    /// The most triangles in a leaf.
+    /// All nodes, level by level; the first is the root. Children of one node are consecutive, in
+    /// the order of their triangles.
+    pub(crate) nodes: Vec<PlanNode>,
+    /// Most triangles in a leaf.
     pub(crate) leaf_size: u32,
-    /// The most children of a part.
+    /// Most children of a node.
     pub(crate) degree: usize,
 }
 
 impl Plan {
-    /// The same of triangles that have these numbers.
+    /// Renumbers the triangles: `numbers[t]` in place of t.
     pub(crate) fn with_numbers(mut self, numbers: &[u32]) -> Self {
         for triangle in &mut self.order {
             *triangle = numbers[*triangle as usize];
@@ -43,69 +39,80 @@ impl Plan {
         self
     }
 
-    /// The same of triangles that come behind so many others.
+    /// Moves the plan behind `triangles` other triangles.
     pub(crate) fn behind(mut self, triangles: u32) -> Self {
-        for part in &mut self.parts {
-            part.triangles.start += triangles;
-            part.triangles.end += triangles;
+        for node in &mut self.nodes {
+            node.triangles.start += triangles;
+            node.triangles.end += triangles;
         }
         self
     }
 }
 
-/// A node of a tree to be.
+/// Node of a tree to be: a run of triangles and its children.
 #[derive(Clone, Debug)]
-pub(crate) struct Part {
-    /// Its run in the order.
+pub(crate) struct PlanNode {
+    /// Run of its triangles in the order.
     pub(crate) triangles: Range<u32>,
-    /// Its children among the parts; none for a leaf.
+    /// Its children among the nodes; empty for a leaf.
     pub(crate) children: Range<u32>,
     pub(crate) level: u32,
 }
 
-/// How long the pieces of a part are, in order.
+/// Lengths of the pieces of a node, in order.
 pub(crate) type Pieces = Vec<usize>;
 
-/// A rule for dividing triangles.
+/// Rule for dividing triangles: the hook of [`Planner`].
 pub(crate) trait Split {
-    /// Reorders `triangles` (caller's numbers, more than `leaf_size` of them) and appends the lengths of the pieces they fall
-    /// into: at most the degree, none empty, in order. One piece means that the rule cannot tell the triangles apart.
+    /// Divides the triangles of a node into pieces, or goes on with that. Returns whether it is
+    /// done.
     ///
-    /// Returns whether that is done. If not, the budget is spent, and it is called again with the same triangles and pieces.
+    /// `triangles` are the caller's numbers, more than `leaf_size` of them. They are reordered, and
+    /// the lengths of the pieces are appended in order: at most the degree, none empty. One piece
+    /// means that the rule cannot tell the triangles apart. If it is not done, the budget is spent.
+    /// It is then called again with the same triangles and pieces.
     fn split(&mut self, triangles: &mut [u32], pieces: &mut Pieces, budget: &mut Budget) -> bool;
 
-    /// Bytes that it holds.
+    /// Returns the bytes of the heap that it holds.
     fn held(&self) -> usize {
         0
     }
 }
 
-/// Divides `count` triangles until at most `leaf_size` are left in each part.
+/// Divides `count` triangles until each node has at most `leaf_size`.
 pub(crate) fn plan(count: usize, degree: usize, leaf_size: u32, rule: impl Split) -> Plan {
     let mut planner = Planner::new(count, degree, leaf_size, rule);
     planner.advance(&mut Budget::whole());
     planner.finish()
 }
 
-/// A division of triangles on its way, which may be made some at a time.
+/// Division of triangles under construction, made some at a time.
+///
+/// ```text
+/// nodes = [all triangles]
+/// for each node, first to last:                       breadth first
+///     at most `leaf_size` triangles:  it is a leaf
+///     else split it into 2 to `degree` nodes and append them
+/// ```
 pub(crate) struct Planner<R> {
     rule: R,
     plan: Plan,
-    /// The first part that was not looked at.
+    /// First node that was not divided.
     next: usize,
-    /// Whether its split was begun, and the pieces it has so far.
+    /// Whether its split was begun.
     is_begun: bool,
+    /// Pieces that its split has found so far.
     pieces: Pieces,
 }
 
 impl<R: Split> Planner<R> {
-    /// Of `count` triangles, none of which was looked at.
+    /// Begins with all of `count` triangles in one node.
     pub(crate) fn new(count: usize, degree: usize, leaf_size: u32, rule: R) -> Self {
         Self {
             rule,
             plan: Plan {
                 order: (0..count as u32).collect(),
-                parts: vec![Part {
+                nodes: vec![PlanNode {
                     triangles: 0..count as u32,
                     children: 0..0,
                     level: 0,
@@ -119,16 +126,16 @@ impl<R: Split> Planner<R> {
         }
     }
 
-    /// Goes on; returns whether all parts are divided.
+    /// Continues; returns whether all nodes are divided.
     pub(crate) fn advance(&mut self, budget: &mut Budget) -> bool {
         let plan = &mut self.plan;
-        while self.next < plan.parts.len() {
+        while self.next < plan.nodes.len() {
             if budget.is_spent() {
                 return false;
             }
-            let Part {
+            let PlanNode {
                 triangles, level, ..
-            } = plan.parts[self.next].clone();
+            } = plan.nodes[self.next].clone();
             if triangles.len() > plan.leaf_size as usize {
                 let run = &mut plan.order[triangles.start as usize..triangles.end as usize];
                 if !self.is_begun {
@@ -141,12 +148,12 @@ impl<R: Split> Planner<R> {
                 if self.pieces.len() == 1 {
                     cut_the_order(run.len(), plan.degree, &mut self.pieces);
                 }
-                let first = plan.parts.len() as u32;
-                plan.parts[self.next].children = first..first + self.pieces.len() as u32;
+                let first = plan.nodes.len() as u32;
+                plan.nodes[self.next].children = first..first + self.pieces.len() as u32;
                 let mut start = triangles.start;
                 for &length in &self.pieces {
                     let end = start + length as u32;
-                    plan.parts.push(Part {
+                    plan.nodes.push(PlanNode {
                         triangles: start..end,
                         children: 0..0,
                         level: level + 1,
@@ -159,9 +166,9 @@ impl<R: Split> Planner<R> {
         true
     }
 
-    /// The division, when no part is left.
+    /// Returns the division, when no node is left.
     pub(crate) fn finish(mut self) -> Plan {
-        self.plan.parts.shrink_to_fit();
+        self.plan.nodes.shrink_to_fit();
         self.plan
     }
 }
@@ -176,7 +183,7 @@ impl Split for Box<dyn Split + Send + Sync> {
     }
 }
 
-held!(Plan: order[], parts[]);
+held!(Plan: order[], nodes[]);
 
 impl<R: Split> Held for Planner<R> {
     fn held(&self) -> usize {
@@ -184,14 +191,14 @@ impl<R: Split> Held for Planner<R> {
     }
 }
 
-/// Equal pieces of an order nobody can improve.
+/// Cuts an order that no rule can improve into equal pieces.
 fn cut_the_order(count: usize, degree: usize, pieces: &mut Pieces) {
     pieces.clear();
     let most = degree.min(count);
     pieces.extend((0..most).map(|piece| (piece + 1) * count / most - piece * count / most));
 }
 
-/// The axes of a box, the longest side first; of equal sides the lower axis first.
+/// Sorts the axes of a box, the longest side first; of equal sides the lower axis first.
 fn axes_by_length(lo: [f64; 3], hi: [f64; 3]) -> [usize; 3] {
     let mut axes = [0, 1, 2];
     axes.sort_by(|&a, &b| (hi[b] - lo[b]).total_cmp(&(hi[a] - lo[a])));

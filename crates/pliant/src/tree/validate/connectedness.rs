@@ -1,16 +1,17 @@
-//! What is always true of a mesh connectivity tree: below every node there is one connected piece of the mesh, or components of
-//! it, each whole. By union and find over edges: nothing in common with how the tree was built.
+//! Invariant of a mesh connectivity tree: below a node is one connected piece, or whole components.
+//!
+//! Checked by union-find over edges: nothing in common with how the tree was built.
 
-use crate::mesh::leader;
+use crate::mesh::find_root;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// The components of a mesh.
+/// Components of a mesh, connected over edges.
 pub(super) struct Connectedness {
     triangles: Vec<[u32; 3]>,
-    /// By triangle.
+    /// Component of each triangle.
     components: Vec<u32>,
-    /// Triangles by component.
+    /// How many triangles each component has.
     sizes: BTreeMap<u32, usize>,
 }
 
@@ -25,7 +26,7 @@ impl Connectedness {
         }
     }
 
-    /// Whether these triangles are one connected piece, or components, each whole.
+    /// Whether a run of triangles is one connected piece, or whole components.
     pub(super) fn holds_for(&self, run: Range<usize>) -> bool {
         if sizes(&components(&self.triangles[run.clone()])).len() == 1 {
             return true;
@@ -37,7 +38,7 @@ impl Connectedness {
     }
 }
 
-/// How many triangles each component has.
+/// Counts the triangles of each component.
 fn sizes(components: &[u32]) -> BTreeMap<u32, usize> {
     let mut sizes = BTreeMap::new();
     for &component in components {
@@ -46,7 +47,7 @@ fn sizes(components: &[u32]) -> BTreeMap<u32, usize> {
     sizes
 }
 
-/// For each triangle one of its component, the same for all of them.
+/// Labels each triangle with one triangle of its component, the same for all of them.
 fn components(triangles: &[[u32; 3]]) -> Vec<u32> {
     let mut sides = Vec::with_capacity(3 * triangles.len());
     for (triangle, [a, b, c]) in (0_u32..).zip(triangles) {
@@ -57,15 +58,15 @@ fn components(triangles: &[[u32; 3]]) -> Vec<u32> {
         }
     }
     sides.sort_unstable();
-    let mut leaders: Vec<u32> = (0..triangles.len() as u32).collect();
+    let mut parents: Vec<u32> = (0..triangles.len() as u32).collect();
     for pair in sides.windows(2) {
         if (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1) {
-            let [a, b] = [pair[0].2, pair[1].2].map(|triangle| leader(&mut leaders, triangle));
-            leaders[a.max(b) as usize] = a.min(b);
+            let [a, b] = [pair[0].2, pair[1].2].map(|triangle| find_root(&mut parents, triangle));
+            parents[a.max(b) as usize] = a.min(b);
         }
     }
     (0..triangles.len() as u32)
-        .map(|triangle| leader(&mut leaders, triangle))
+        .map(|triangle| find_root(&mut parents, triangle))
         .collect()
 }
 
@@ -75,7 +76,8 @@ mod tests {
 
     #[test]
     fn a_piece_or_whole_components() {
-        // A strip of three, a strip of two, one that touches both in a vertex, one that is a segment of the first strip's.
+        // A strip of three, a strip of two, one that touches both in a vertex, one that is a
+        // segment of the first strip's.
         let triangles = vec![
             [0, 1, 2],
             [1, 2, 3],

@@ -1,4 +1,6 @@
-//! What is always true of a tree, and of its boxes.
+//! Invariants of a tree and of its boxes, checked.
+//!
+//! `World::validate` calls this; the tests call that after every step.
 
 mod connectedness;
 
@@ -10,7 +12,7 @@ use connectedness::Connectedness;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-/// Says what is wrong, unless this holds.
+/// Returns an error that says what is wrong, unless the condition holds.
 macro_rules! ensure {
     ($holds:expr, $($wrong:tt)+) => {
         if !$holds {
@@ -20,7 +22,9 @@ macro_rules! ensure {
 }
 
 impl Tree {
-    /// Checks the structure over these triangles and what the partition promises; `Err` says what is wrong. Allocates and takes its time.
+    /// Checks the structure over these triangles, and what the partition promises.
+    ///
+    /// `Err` says what is wrong. Allocates, and takes its time.
     pub(crate) fn validate(
         &self,
         order: &Order,
@@ -77,7 +81,8 @@ impl Tree {
         Ok(())
     }
 
-    /// Checks that every valid box is what the source gives over the vertices below it, and that what is above a valid box is valid.
+    /// Checks that valid boxes are what the source gives, and that no valid box is below a stale
+    /// one.
     pub(crate) fn validate_boxes(
         &self,
         boxes: &BoxSet,
@@ -111,7 +116,7 @@ impl Tree {
         Ok(())
     }
 
-    /// The children of a node divide its triangles.
+    /// Checks that the children of a node divide its triangles.
     fn validate_division(&self, node: NodeId, triangles: Range<usize>) -> Result<(), String> {
         let Child::Inner(below) = self.child(node) else {
             return Ok(());
@@ -136,7 +141,7 @@ impl Tree {
         Ok(())
     }
 
-    /// The blocks of a leaf hold its triangles.
+    /// Checks that the blocks of a leaf hold its triangles.
     fn validate_blocks(&self, leaf: LeafId) -> Result<(), String> {
         for (triangle, block) in self.block_of_each_triangle(leaf) {
             let (block, lane) = block;
@@ -149,6 +154,7 @@ impl Tree {
         Ok(())
     }
 
+    /// Checks that valid boxes of a leaf's triangles are what the source gives.
     fn validate_leaf_boxes(
         &self,
         leaf: LeafId,
@@ -178,7 +184,8 @@ impl Tree {
         Ok(())
     }
 
-    /// Where the blocks of a leaf have its triangles: none where there are no blocks.
+    /// Iterates over a leaf's triangles, each with its block and lane; empty where there are no
+    /// blocks.
     fn block_of_each_triangle(
         &self,
         leaf: LeafId,
@@ -196,7 +203,7 @@ impl Tree {
         })
     }
 
-    /// The run of triangles below a node, from its first leaf to its last.
+    /// Returns the run of triangles below a node, from its first leaf to its last.
     fn triangles_below(&self, node: NodeId) -> Result<Range<usize>, String> {
         let end_of = |last: bool| {
             let mut node = node;
@@ -221,7 +228,7 @@ mod tests {
     use crate::mesh::Topology;
     use crate::tree::build::{Balanced, Connectivity, Split, plan};
 
-    /// What is wrong with the tree that a rule makes of these triangles, as a mesh connectivity tree.
+    /// Builds a tree by a rule; returns what is wrong with it as a mesh connectivity tree.
     fn fault(triangles: &[[u32; 3]], vertices: usize, rule: impl Split) -> String {
         let mut plan = plan(triangles.len(), 8, 2, rule);
         let topology = Topology::new(triangles, vertices);

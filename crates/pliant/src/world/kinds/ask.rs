@@ -1,11 +1,14 @@
-//! How most kinds are asked: of the request a kind is made, and of that all hits, the first, or a visit.
+//! Answers of most kinds: a request becomes a kind, which is asked for all hits, the first, or a
+//! visit.
 
 use crate::error::Error;
 use crate::traversal::Visitor;
 use std::ops::ControlFlow;
 
-/// Answers queries for a hit, given the field of `Kinds` in which buffers are, the method of these
-/// that makes a list, and how a request makes a kind.
+/// Implements queries for a hit type.
+///
+/// Given are the field of `Kinds` with the buffers, its method that makes a list, and how a request
+/// becomes a kind.
 macro_rules! ask {
     ($hit:ty, $kept:ident.$all:ident, |$request:ident| $kind:expr) => {
         impl<S: Coordinate> Ask<$hit> for State<S> {
@@ -33,7 +36,7 @@ macro_rules! ask {
     };
 }
 
-/// The first hit that a visit shows.
+/// Returns the first hit that a visit shows.
 pub(super) fn first_seen<H: Copy>(
     visit: impl FnOnce(Visitor<H>) -> Result<(), Error>,
 ) -> Result<Option<H>, Error> {

@@ -1,14 +1,14 @@
-//! The registry of kinds, and each kind as users ask for it: a folder a kind.
+//! Registry of kinds, and a folder for each kind as users ask for it.
 //!
-//! A kind here is made of a request (`Ask`), and has its method of `World`, its options of `Query`,
-//! and its slow `reference`. The registry says of every kind what a world keeps for it; tests ask
-//! for what it lists, so a kind that exists is tested.
+//! Here a kind is made from a request (`Ask`). It has its method of `World`, its options of
+//! `Query`, and its slow `reference`. The registry says what a world keeps for each kind. Tests ask
+//! for everything that it lists, so a kind that exists is tested.
 
 /// Lists every kind of query, for the macro whose name it is given: `every_kind! { name }`.
 ///
-/// A line has a name, the buffers that a world of scalars `S` keeps for the kind, and for each of
-/// its hits the method of [`World`](crate::World) that asks for them: of a selection, and of some
-/// kinds within a length, which is a margin or a distance.
+/// A line has a name and the buffers that a world of scalars `S` keeps for the kind. For each of
+/// its hits it has the method of [`World`](crate::World) that asks for them. The method takes a
+/// selection, and for some kinds a length: a margin or a distance.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! every_kind {
@@ -40,7 +40,7 @@ macro_rules! every_kind {
 #[macro_use]
 mod ask;
 
-// In the order in which documentation shows what they say of a world.
+// Modules in the order in which documentation shows their sections of `World`.
 mod intersections;
 
 mod contacts;
@@ -53,7 +53,7 @@ mod close_triangles;
 
 pub(super) mod impacts;
 
-/// What kinds have in `reference`, for the crate's.
+/// References of all kinds, for the crate's `reference`.
 pub(crate) mod reference {
     pub use super::candidates::reference::*;
     pub use super::close::reference::*;

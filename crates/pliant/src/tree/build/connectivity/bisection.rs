@@ -1,4 +1,4 @@
-//! A graph in two: by whole components, or both halves connected.
+//! Bisection of a graph: by whole components, or into two connected halves.
 
 use super::coarsening::{Coarsening, Coarser};
 use super::components::Components;
@@ -9,27 +9,28 @@ use super::refinement::{Quality, Refinement};
 use super::search::{Search, UNREACHED};
 use super::subtree::Subtree;
 
-/// A graph of this many nodes is coarse enough to be cut.
+/// Most nodes of a graph that is coarse enough to be cut.
 const COARSE: usize = 48;
-/// Contracting goes on while it takes one of so many nodes away, or more.
+/// Coarsening goes on while it takes away at least one of this many nodes.
 const WORTH_IT: usize = 20;
 
+/// Multilevel bisection; the memory of its steps is reused from graph to graph.
 #[derive(Debug, Default)]
 pub(super) struct Bisection {
     search: Search,
     components: Components,
-    /// Coarser and coarser; the memory of the largest graph so far.
+    /// Coarser and coarser graphs; as many as the largest graph so far needed.
     levels: Vec<Coarser>,
     coarsening: Coarsening,
     far_ends: FarEnds,
     subtree: Subtree,
     refinement: Refinement,
-    /// A cut to compare with, or to make the next of.
+    /// A second cut, to compare with or to build the next in.
     other: Vec<Half>,
 }
 
 impl Bisection {
-    /// Gives each of two or more nodes a side; none is empty.
+    /// Assigns each of two or more nodes to a side; neither is empty.
     pub(super) fn bisect(&mut self, graph: &Graph, shares: Shares, halves: &mut Vec<Half>) {
         self.search.clear(graph.len());
         self.search.reach(graph, 0);
@@ -40,7 +41,7 @@ impl Bisection {
         }
     }
 
-    /// The search has reached the first component.
+    /// Assigns whole components to sides; the search has reached the first.
     fn share_out_components(&mut self, graph: &Graph, halves: &mut Vec<Half>) {
         let mut reached = self.search.order.len();
         self.components.clear();
@@ -53,7 +54,7 @@ impl Bisection {
                 reached += size;
             }
         }
-        // Components came one after the other.
+        // The search's order holds one component after the other.
         halves.clear();
         halves.resize(graph.len(), false);
         let mut nodes = self.search.order.iter();
@@ -64,7 +65,7 @@ impl Bisection {
         }
     }
 
-    /// Cuts a connected graph.
+    /// Cuts a connected graph: multilevel, with a subtree as the fallback.
     fn cut(&mut self, graph: &Graph, shares: Shares, halves: &mut Vec<Half>) {
         let coarsest = self.coarsen(graph);
         let mut quality = self.cut_between_far_ends(coarsest, graph, shares, halves);
@@ -85,7 +86,7 @@ impl Bisection {
         }
     }
 
-    /// Contracts the graph again and again, and returns at which level it is coarse.
+    /// Contracts the graph until it is coarse. Returns the level at which it is.
     fn coarsen(&mut self, graph: &Graph) -> usize {
         let most = (graph.total() / COARSE as u32).max(1) * 3 / 2;
         let mut level = 0;
@@ -106,7 +107,7 @@ impl Bisection {
         }
     }
 
-    /// The best of the cuts between far ends at a level, refined.
+    /// Cuts the graph at a level between far ends, refines each cut, and keeps the best.
     fn cut_between_far_ends(
         &mut self,
         level: usize,
@@ -132,7 +133,7 @@ impl Bisection {
     }
 }
 
-/// The graph at a level: 0 is the one to be cut.
+/// Returns the graph at a level; level 0 is the graph to be cut.
 fn at_level<'a>(level: usize, levels: &'a [Coarser], graph: &'a Graph) -> &'a Graph {
     match level {
         0 => graph,

@@ -1,28 +1,31 @@
-//! A graph of about half as many nodes: neighbours that belong together are contracted to one.
+//! Coarsening: a graph of about half as many nodes, by contraction of neighbours.
 //!
-//! Nodes choose a partner in the order of their numbers, by the rating w^2 / (a b) of a link of weight w between nodes of
-//! weights a and b, which keeps nodes alike and their borders short (*expansion*^2 of Holtgrewe, Sanders and Schulz,
-//! *Engineering a Scalable High Quality Graph Partitioner*, 2010). Equal ratings: the first link.
-//!
-//! A node is a connected set of triangles, so nodes that are connected are triangles that are connected.
+//! Nodes choose a partner in the order of their numbers, by a rating of their links. A link of
+//! weight w between nodes of weights a and b rates w^2 / (a b): nodes stay alike and their borders
+//! short. (*expansion*^2 of Holtgrewe, Sanders and Schulz, *Engineering a Scalable High Quality
+//! Graph Partitioner*, 2010.) Of equal ratings the first link wins. A node is a connected set of
+//! triangles, so connected nodes are connected triangles.
 
 use super::graph::{Graph, Link};
 
-/// A coarser graph, and what became of the finer one's nodes.
+/// Coarser graph, and the map from the finer one's nodes.
 #[derive(Debug, Default)]
 pub(super) struct Coarser {
     pub(super) graph: Graph,
-    /// By node of the finer graph.
+    /// Coarse node of each node of the finer graph.
     pub(super) coarse_of: Vec<u32>,
 }
 
+/// Contraction of graphs; its memory is reused from graph to graph.
 #[derive(Debug, Default)]
 pub(super) struct Coarsening {
     partners: Vec<u32>,
-    /// For each coarse node, where its link is in the row being made, if it is not before that row.
+    /// For each coarse node the place of its link in the current row; a place from an earlier row
+    /// is invalid.
     link_places: Vec<u32>,
 }
 
+/// Sentinel: a node without a partner, or without a link.
 const ALONE: u32 = u32::MAX;
 
 impl Coarsening {
@@ -30,7 +33,7 @@ impl Coarsening {
     pub(super) fn coarsen(&mut self, fine: &Graph, most: u32, level: &mut Coarser) {
         self.choose_partners(fine, most);
 
-        // Coarse nodes in the order of their first fine ones.
+        // Coarse nodes are numbered in the order of their first fine ones.
         let mut count = 0;
         level.coarse_of.clear();
         for (node, &partner) in self.partners.iter().enumerate() {
@@ -55,6 +58,7 @@ impl Coarsening {
         }
     }
 
+    /// Matches each node with a free neighbour, or with itself.
     fn choose_partners(&mut self, fine: &Graph, most: u32) {
         self.partners.clear();
         self.partners.resize(fine.len(), ALONE);
@@ -77,7 +81,7 @@ impl Coarsening {
         }
     }
 
-    /// Adds the coarse node of two partners, which may be one.
+    /// Adds the coarse node of two partners, which may be one node.
     fn contract(&mut self, fine: &Graph, node: u32, partner: u32, level: &mut Coarser) {
         let Coarser { graph, coarse_of } = level;
         let own = coarse_of[node as usize];
@@ -89,7 +93,7 @@ impl Coarsening {
                     continue;
                 }
                 let links = graph.new_links();
-                // A place written for an earlier row names another link of this one, or none.
+                // A place from an earlier row names another link of this row, or none.
                 let place = self.link_places[to as usize] as usize;
                 if let Some(same) = links.get_mut(place).filter(|link| link.to == to) {
                     same.weight += link.weight;
@@ -108,7 +112,7 @@ impl Coarsening {
     }
 }
 
-/// Whether a link of some node has a higher rating than another link of it: its own weight divides both.
+/// Compares the ratings of two links of one node, whose own weight divides both.
 #[inline]
 fn rates_higher(graph: &Graph, link: Link, than: Link) -> bool {
     let square = |link: Link| u128::from(link.weight) * u128::from(link.weight);

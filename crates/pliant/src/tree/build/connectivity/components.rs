@@ -1,18 +1,18 @@
-//! Dealing out the components of a piece that is not connected.
+//! Division of a graph that is not connected: whole components are dealt out to two sides.
 //!
-//! **The rule.** Components are taken in the order of their first triangles (what belongs together is often together in a
-//! file), and the row is cut between two of them, as near its middle as it goes. If a large component makes that uneven, they
-//! are shared out instead, if that is more even: the largest first, each to the side that has less. One that is larger than all
-//! others together then stands alone, and is bisected when its turn comes.
-//!
-//! So halves hold whole components, and no side has more than two thirds unless it is one component.
+//! Components form a row in the order of their first triangles, since what belongs together is
+//! often together in a file. The row is cut between two of them, as near its middle as possible. If
+//! that is uneven, they are dealt out largest first, each to the lighter side, if this is more
+//! even. A component larger than all others together stands alone, and is bisected later. No side
+//! has more than two thirds unless it is one component.
 
 use super::halves::Half;
 use std::cmp::Reverse;
 
-/// A side with this part of the whole more than half of it is uneven.
+/// A side is uneven if it exceeds half by more than the whole divided by this.
 const UNEVEN: u32 = 16;
 
+/// Components to be dealt out, and memory for their sides.
 #[derive(Debug, Default)]
 pub(super) struct Components {
     /// Triangles of each component, in the order of their first triangles.
@@ -22,7 +22,7 @@ pub(super) struct Components {
 }
 
 impl Components {
-    /// Forgets everything.
+    /// Removes all components.
     pub(super) fn clear(&mut self) {
         self.sizes.clear();
     }
@@ -32,15 +32,16 @@ impl Components {
         self.sizes.push(size);
     }
 
-    /// Gives every component a side; there are two at least. Returns sizes and halves.
+    /// Assigns each of two or more components to a side. Returns sizes and sides.
     pub(super) fn share_out(&mut self) -> impl Iterator<Item = (u32, Half)> {
         self.choose_sides();
         self.sizes.iter().copied().zip(self.halves.iter().copied())
     }
 
+    /// Chooses the sides: the row cut in two, or dealt out largest first if that is more even.
     fn choose_sides(&mut self) {
         let total: u32 = self.sizes.iter().sum();
-        // The row is cut before the first component whose middle is beyond the middle.
+        // The row is cut before the first component whose middle is beyond the row's middle.
         let (mut cut, mut before) = (0, 0);
         while 2 * before + self.sizes[cut] <= total {
             before += self.sizes[cut];
@@ -57,7 +58,7 @@ impl Components {
         self.halves.extend(row.map(|component| component >= cut));
     }
 
-    /// Returns what the side with more has.
+    /// Deals out components, largest first. Returns the size of the larger side.
     fn share_out_largest_first(&mut self) -> u32 {
         let components = 0..self.sizes.len() as u32;
         self.largest_first.clear();

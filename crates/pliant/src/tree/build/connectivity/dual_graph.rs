@@ -1,25 +1,27 @@
-//! Which triangles are neighbours over edges.
+//! Dual graph of a mesh: triangles, linked over the edges they share.
 //!
-//! The triangles around one edge are linked in a ring, in the order of their numbers: two by one link, and any number, however
-//! large, by as many links as triangles. So a triangle has at most six links and nothing is quadratic. Triangles linked are
-//! neighbours; triangles that are neighbours are connected by links. A piece that is connected by links is connected, and the
-//! components are those of the mesh.
+//! The triangles around one edge are linked in a ring, in the order of their numbers. Two have one
+//! link, more have as many links as triangles. So a triangle has at most six links, and nothing is
+//! quadratic. Linked triangles are neighbours, and neighbours are connected by links. So this graph
+//! and the mesh have the same connected components.
 
 use super::graph::Graph;
 
-/// The links of all triangles of a mesh, by the caller's numbers.
+/// Links of all triangles of a mesh, by the caller's numbers, in compressed sparse rows (CSR).
 #[derive(Debug)]
 pub(super) struct DualGraph {
-    /// The first link of each triangle, and the end.
+    /// First link of each triangle, and the end.
     starts: Vec<u32>,
     links: Vec<u32>,
-    /// Scratch: where a triangle is in the piece at hand.
+    /// Scratch: the place of each triangle in the current piece.
     places: Vec<u32>,
 }
 
+/// Sentinel: a triangle that is not in the current piece.
 const ELSEWHERE: u32 = u32::MAX;
 
 impl DualGraph {
+    /// Links triangles that share an edge. O(m log m).
     pub(super) fn new(triangles: &[[u32; 3]]) -> Self {
         // Every edge of every triangle, so that the triangles around an edge are a run.
         let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(triangles.len() * 3);
@@ -32,7 +34,7 @@ impl DualGraph {
         // A triangle with a repeated vertex has one edge twice.
         sides.dedup();
 
-        // Twice the same pass: links are counted, then written.
+        // Two passes: links are counted, then written.
         let mut starts = vec![0; triangles.len() + 1];
         for_each_link(&sides, |triangle, _| starts[triangle as usize + 1] += 1);
         for triangle in 0..triangles.len() {
@@ -52,7 +54,7 @@ impl DualGraph {
         }
     }
 
-    /// Makes `piece` the graph of some triangles and the links between them: node i is triangle i of the list.
+    /// Makes `piece` the subgraph of some triangles: node i is triangle i of the list.
     pub(super) fn extract(&mut self, triangles: &[u32], piece: &mut Graph) {
         for (place, &triangle) in triangles.iter().enumerate() {
             self.places[triangle as usize] = place as u32;
@@ -79,7 +81,7 @@ impl DualGraph {
     }
 }
 
-/// Both ends of every link, from sides sorted by edge.
+/// Visits both ends of every link, given sides sorted by edge.
 fn for_each_link(sides: &[([u32; 2], u32)], mut visit: impl FnMut(u32, u32)) {
     let mut both = |a, b| {
         visit(a, b);
@@ -121,7 +123,7 @@ mod tests {
         // A degenerate triangle has its one edge once.
         let links = neighbours(&[[0, 1, 0], [1, 0, 2]]);
         assert_eq!(links, [vec![(1, 1)], vec![(0, 1)]]);
-        // Duplicates share three.
+        // Duplicates share three edges.
         let links = neighbours(&[[0, 1, 2], [2, 0, 1]]);
         assert_eq!(links, [vec![(1, 3)], vec![(0, 3)]]);
     }

@@ -1,30 +1,35 @@
-//! The first cut of a connected graph: between two far ends.
+//! First cut of a connected graph, between two nodes that are far apart.
 //!
-//! With distances p and q to two nodes a and b, one side is where p - q is at most some value. Both halves are connected, for
-//! any value: a step towards a takes one from p and at most one from q, so p - q does not grow on the way to a, nor does it
-//! shrink on the way to b. The value is the one that comes nearest to the shares. A cut between ends that are far apart runs
-//! across the graph, and so is short.
+//! Let p and q be the distances to two nodes a and b. One side is where p - q is at most some
+//! value: the one that comes nearest to the shares. Both halves are connected for any value, since
+//! p - q never grows on the way to a, nor shrinks on the way to b. A step towards a takes one from
+//! p, and at most one from q. Between far ends a cut runs across the graph, and so is short.
 
 use super::graph::Graph;
 use super::halves::{Half, Shares};
 use super::search::Search;
 
-/// How many ends are found, and in a graph of fewer nodes than these. All pairs of ends are worth a try.
+/// Most ends that are found. All pairs of ends are worth a try.
 const MOST_ENDS: usize = 3;
+/// Most ends in a small graph.
 const FEW_ENDS: usize = 2;
+/// Nodes below which a graph is small.
 const FEW_NODES: usize = 32;
 
+/// Search for far ends, and cuts between them; its memory is reused from graph to graph.
 #[derive(Debug, Default)]
 pub(super) struct FarEnds {
     ends: Vec<u32>,
-    /// One from each end.
+    /// Breadth-first searches, one from each end.
     searches: [Search; MOST_ENDS],
-    /// Weight by p - q.
+    /// Weight of the nodes by p - q.
     histogram: Vec<u32>,
 }
 
 impl FarEnds {
-    /// Finds ends of a connected graph of two nodes or more, each as far as can be from those before, and returns how many.
+    /// Finds ends of a connected graph of two nodes or more. Returns how many.
+    ///
+    /// Each is as far as possible from the ends before.
     pub(super) fn find(&mut self, graph: &Graph) -> usize {
         let most = if graph.len() < FEW_NODES {
             FEW_ENDS
@@ -45,7 +50,7 @@ impl FarEnds {
         self.ends.len()
     }
 
-    /// The node, of several the first, whose nearest end is farthest.
+    /// Returns the node whose nearest end is farthest; of several the first.
     fn farthest_from_all(&self, graph: &Graph) -> u32 {
         let searches = &self.searches[..self.ends.len()];
         let nearest_end = |node: u32| {
@@ -58,7 +63,7 @@ impl FarEnds {
         nodes.max_by_key(|&node| nearest_end(node)).unwrap_or(0)
     }
 
-    /// Cuts between two of the ends found.
+    /// Cuts between two of the ends found, nearest to the shares.
     pub(super) fn cut_between(
         &mut self,
         graph: &Graph,
@@ -75,7 +80,7 @@ impl FarEnds {
         for node in 0..graph.len() {
             self.histogram[value(node) as usize] += graph.weight(node as u32);
         }
-        // The value of b would leave the other side nothing; any is better.
+        // The value at b would leave the other side nothing; any other is better.
         let mut weight = 0;
         let mut best = (u64::MAX, 0);
         for (value, here) in (0..).zip(&self.histogram) {

@@ -1,18 +1,19 @@
-//! An undirected graph with weights, in compressed rows.
+//! Weighted undirected graph in compressed sparse rows (CSR).
 
-/// The end of an edge, in the row of its other end.
+/// End of an edge, in the row of its other end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Link {
     pub(super) to: u32,
     pub(super) weight: u32,
 }
 
-/// Nodes weigh as many triangles, links as many mesh edges, as they stand for. No node is linked with itself, none twice with
-/// another.
+/// Weighted graph: a node weighs as many triangles, a link as many mesh edges, as it stands for.
+///
+/// No node is linked with itself, none twice with another.
 #[derive(Debug)]
 pub(super) struct Graph {
     weights: Vec<u32>,
-    /// The first link of each node, and the end.
+    /// First link of each node, and the end.
     starts: Vec<u32>,
     links: Vec<Link>,
     total: u32,
@@ -32,7 +33,7 @@ impl Default for Graph {
 }
 
 impl Graph {
-    /// Forgets nodes and links, and keeps the memory.
+    /// Removes nodes and links, and keeps the memory.
     pub(super) fn clear(&mut self) {
         self.weights.clear();
         self.starts.truncate(1);
@@ -46,7 +47,7 @@ impl Graph {
         self.links.push(Link { to, weight });
     }
 
-    /// The links pushed since the last node, so that those to one node can be merged.
+    /// Returns the links pushed since the last node, so that links to one node can be merged.
     #[inline]
     pub(super) fn new_links(&mut self) -> &mut [Link] {
         let start = self.starts[self.weights.len()] as usize;
@@ -62,13 +63,13 @@ impl Graph {
         self.heaviest = self.heaviest.max(weight);
     }
 
-    /// How many nodes there are.
+    /// Returns how many nodes there are.
     #[inline]
     pub(super) fn len(&self) -> usize {
         self.weights.len()
     }
 
-    /// The links of a node.
+    /// Returns the links of a node.
     #[inline]
     pub(super) fn links(&self, node: u32) -> &[Link] {
         let node = node as usize;
@@ -78,19 +79,19 @@ impl Graph {
         &self.links[row]
     }
 
-    /// The weight of a node.
+    /// Returns the weight of a node.
     #[inline]
     pub(super) fn weight(&self, node: u32) -> u32 {
         self.weights[node as usize]
     }
 
-    /// The weight of the heaviest node.
+    /// Returns the weight of the heaviest node.
     #[inline]
     pub(super) fn heaviest(&self) -> u32 {
         self.heaviest
     }
 
-    /// The weight of all nodes.
+    /// Returns the weight of all nodes.
     #[inline]
     pub(super) fn total(&self) -> u32 {
         self.total
@@ -103,16 +104,16 @@ pub(super) mod tests {
     use std::cell::Cell;
 
     thread_local! {
-        /// The links in all rows that were looked at: work, counted.
+        /// Links in all rows that were read: work, counted.
         pub(in super::super) static LINKS_READ: Cell<u64> = const { Cell::new(0) };
     }
 
-    /// Nodes in a row.
+    /// Path of nodes.
     pub(in super::super) fn path(nodes: u32) -> Graph {
         star(1, nodes - 1)
     }
 
-    /// Arms of some nodes each around node 0: arm by arm, from inside out.
+    /// Star: arms of `length` nodes each around node 0, arm by arm, from inside out.
     pub(in super::super) fn star(arms: u32, length: u32) -> Graph {
         let mut graph = Graph::default();
         (0..arms).for_each(|arm| graph.push_link(1 + length * arm, 1));

@@ -1,28 +1,10 @@
-//! The paper's mesh connectivity tree (3.2, last paragraphs): the triangles below a node form a connected neighbourhood of the
-//! mesh, whatever shape the body has. The paper says what such a tree is, and wishes for an algorithm that makes one; this is
-//! ours.
+//! Mesh connectivity partition (paper, 3.2): below every node, a connected part of the mesh.
 //!
-//! Two triangles are **neighbours** if they share an edge: two different vertices. Below every node there is
-//!
-//! - one connected piece of the mesh, or
-//! - some of its components, each whole.
-//!
-//! ```text
-//! a part:  cut it in two, and again, until there are `degree` pieces, or a piece fits a leaf
-//! cut:     components, if there are several, are shared out whole      components
-//!          a connected piece is bisected into two connected pieces    bisection
-//! bisect:  contract neighbours, again and again                       coarsening
-//!          cut the coarsest graph between two far ends                far_ends
-//!          refine the cut, level by level back to the triangles       refinement
-//! ```
-//!
-//! Pieces are as equal as connectedness allows, up to a hundredth, and their borders have few edges. The result depends on the
-//! triangles and their order alone. Nothing is recursive, and a cut takes time in proportion to its piece, so a level of the
-//! tree costs the same whatever the mesh.
-//!
-//! Multilevel bisection is Karypis and Kumar's (*A Fast and High Quality Multilevel Scheme for Partitioning Irregular Graphs*,
-//! 1998), known from METIS. What differs: both halves are connected at every moment. Each step keeps that in its own graph,
-//! which is enough, because a node of any graph is a connected set of triangles.
+//! The paper says what such a tree is, and wishes for an algorithm; this is ours. It is multilevel
+//! bisection (Karypis and Kumar, *A Fast and High Quality Multilevel Scheme for Partitioning
+//! Irregular Graphs*, 1998), known from METIS. What differs: both halves are connected at every
+//! moment. The result depends on the triangles and their order alone. How it goes:
+//! [`Connectivity`].
 
 mod bisection;
 mod coarsening;
@@ -43,20 +25,42 @@ use dual_graph::DualGraph;
 use graph::Graph;
 use halves::{Half, Shares};
 
+/// Rule that divides triangles by mesh connectivity.
+///
+/// Two triangles are **neighbours** if they share an edge: two different vertices. Below every node
+/// there is
+///
+/// - one connected piece of the mesh, or
+/// - some of its components, each whole.
+///
+/// ```text
+/// a node:  cut it in two, and again, until there are `degree` pieces, or a piece fits a leaf
+/// cut:     components, if there are several, are shared out whole      components
+///          a connected piece is bisected into two connected pieces    bisection
+/// bisect:  contract neighbours, again and again                       coarsening
+///          cut the coarsest graph between two far ends                far_ends
+///          refine the cut, level by level back to the triangles       refinement
+/// ```
+///
+/// Pieces are as equal as connectedness allows, up to a hundredth, and their borders have few
+/// edges. Each step keeps halves connected in its own graph. That is enough, because a node of any
+/// graph is a connected set of triangles. Nothing is recursive. A cut takes time in proportion to
+/// its piece, so each level of the tree costs O(m), whatever the mesh.
 pub(crate) struct Connectivity {
     dual: DualGraph,
     degree: usize,
     leaf_size: usize,
     bisection: Bisection,
-    /// The piece at hand, and on which side each of its triangles goes.
+    /// The current piece.
     piece: Graph,
+    /// Side of each triangle of the piece.
     halves: Vec<Half>,
-    /// Triangles of the second side.
+    /// Scratch: triangles of the second side.
     second: Vec<u32>,
 }
 
 impl Connectivity {
-    /// Triangles in the caller's order.
+    /// Takes triangles in the caller's order.
     pub(crate) fn new(triangles: &[[u32; 3]], degree: usize, leaf_size: u32) -> Self {
         Self {
             dual: DualGraph::new(triangles),
@@ -69,12 +73,13 @@ impl Connectivity {
         }
     }
 
-    /// Cuts a piece in two: orders its triangles so that each side is a run, and returns the length of the first.
+    /// Cuts a piece in two: orders its triangles so that each side is a run. Returns the length of
+    /// the first.
     fn cut(&mut self, triangles: &mut [u32], shares: Shares) -> usize {
         self.dual.extract(triangles, &mut self.piece);
         self.bisection.bisect(&self.piece, shares, &mut self.halves);
 
-        // The first triangle stays the first, and all of a side stay in order.
+        // The first triangle stays the first, and each side stays in order.
         let first = self.halves[0];
         let mut length = 0;
         self.second.clear();
@@ -103,7 +108,8 @@ impl Split for Connectivity {
             }
             let run = &mut triangles[start..start + length];
             let left = self.cut(run, Shares::halves(children));
-            // By what the halves have got, which may be far from half: components are shared out whole.
+            // In proportion to what the halves have got. That may be far from half, since
+            // components stay whole.
             let left_children = (2 * children * left + length) / (2 * length);
             let left_children = left_children.clamp(1, children - 1);
             runs.push((start + left, length - left, children - left_children));
@@ -124,7 +130,7 @@ mod tests {
         let before = LINKS_READ.get();
         let rule = Connectivity::new(triangles, 8, 1);
         let plan = plan(triangles.len(), 8, 1, rule);
-        assert!(plan.parts.len() > triangles.len());
+        assert!(plan.nodes.len() > triangles.len());
         let levels = f64::from((triangles.len() as u32).ilog2());
         (LINKS_READ.get() - before) as f64 / triangles.len() as f64 / levels
     }

@@ -1,32 +1,34 @@
-//! Whether a side stays connected without one of its nodes, looked up near that node.
+//! Bounded search: whether a side of a cut stays connected without one of its nodes.
 //!
-//! It does if the node's neighbours on its side reach each other on that side without it. On a surface they do so around a
-//! vertex, a few steps away, so a search of bounded length is nearly always enough to say yes; met with its bound it says no,
-//! which is always right to do.
+//! It does if the node's neighbours on its side reach each other there without it. On a surface
+//! they do so around a vertex, a few steps away. So a search of bounded length can nearly always
+//! say yes. At its bound it says no, which is always safe.
 
 use super::graph::Graph;
 use super::halves::Half;
 
-/// How many links are followed at most.
+/// Most links that are followed.
 const BOUND: usize = 256;
 
+/// Bounded search near a node; its memory is reused from graph to graph.
 #[derive(Debug, Default)]
 pub(super) struct Nearby {
-    /// By node: the last search that looked for it, an even number, or reached it, the odd one above.
+    /// For each node the last search that looked for it (an even number) or reached it (the odd one
+    /// above).
     marks: Vec<u32>,
     last_mark: u32,
     queue: Vec<u32>,
 }
 
 impl Nearby {
-    /// Makes ready for a graph of so many nodes.
+    /// Prepares for a graph of `nodes` nodes.
     pub(super) fn clear(&mut self, nodes: usize) {
         self.marks.clear();
         self.marks.resize(nodes, 0);
         self.last_mark = 1;
     }
 
-    /// Whether a side is known to be connected, and not empty, without a node of it.
+    /// Whether a side is known to stay connected, and not empty, without one of its nodes.
     pub(super) fn may_leave(&mut self, graph: &Graph, halves: &[Half], node: u32) -> bool {
         let side = halves[node as usize];
         let (wanted, reached) = (self.last_mark + 1, self.last_mark + 2);
@@ -73,7 +75,7 @@ impl Nearby {
 mod tests {
     use super::*;
 
-    /// A ring of nodes, each linked with the next.
+    /// Ring of nodes, each linked with the next.
     fn ring(count: u32) -> Graph {
         let mut graph = Graph::default();
         for node in 0..count {
@@ -112,7 +114,8 @@ mod tests {
 
     #[test]
     fn a_node_with_too_many_links_stays() {
-        // Node 0 and node 1 are linked with all others but the last, which is linked with node 0 alone.
+        // Nodes 0 and 1 are linked with all others except the last, which is linked with node 0
+        // alone.
         let last = BOUND as u32 + 1;
         let mut graph = Graph::default();
         (1..=last).for_each(|other| graph.push_link(other, 1));

@@ -1,9 +1,10 @@
-//! A shorter border and more equal halves, a node at a time: Fiduccia and Mattheyses (*A Linear-Time Heuristic for Improving
-//! Network Partitions*, 1982), on a cut whose halves are connected and stay so.
+//! Refinement of a cut, node by node: shorter borders and more equal halves, which stay connected.
 //!
-//! A pass moves nodes of the border to the other side, always the one that shortens the border most, and each once; it goes on
-//! for a while where the border gets longer, and in the end back to the best cut it saw. A side that is too heavy gives nodes
-//! away until it is not. A node whose side might fall apart stays (`nearby`).
+//! After Fiduccia and Mattheyses (*A Linear-Time Heuristic for Improving Network Partitions*,
+//! 1982). A pass moves border nodes to the other side, each once, always the one that shortens the
+//! border most. It goes on for a while where the border grows, and returns to the best cut it saw.
+//! A side that is too heavy gives nodes away until it is not. What differs: a node whose side might
+//! fall apart stays (`nearby`).
 
 use super::graph::Graph;
 use super::halves::{Half, Shares};
@@ -11,7 +12,7 @@ use super::nearby::Nearby;
 use std::collections::BinaryHeap;
 use std::ops::RangeInclusive;
 
-/// How good a cut is: less is better, first things first.
+/// Quality of a cut: less is better, compared field by field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Quality {
     /// How much heavier a side is than it may be.
@@ -23,7 +24,7 @@ pub(super) struct Quality {
 }
 
 impl Quality {
-    /// No cut is as bad.
+    /// Worse than any cut.
     pub(super) const WORST: Self = Self {
         excess: u32::MAX,
         border: u32::MAX,
@@ -31,27 +32,32 @@ impl Quality {
     };
 }
 
-/// A pass ends this many moves after the best cut it saw: about as many as a border has edges, the root of the weight.
+/// Moves after the best cut of a pass until it ends: about as many as a border has edges, the root
+/// of the weight.
 const PATIENCE: RangeInclusive<usize> = 12..=64;
-/// There are no more passes than this; most often the second finds nothing.
+/// Most passes; usually the second finds nothing.
 const MOST_PASSES: u32 = 4;
-/// A side may have one in so many more than its share, where that makes the border shorter.
+/// Inverse tolerance: a side may exceed its share by the whole divided by this, for a shorter
+/// border.
 const TOLERANCE: u32 = 256;
 
+/// Refinement of cuts; its memory is reused from graph to graph.
 #[derive(Debug, Default)]
 pub(super) struct Refinement {
-    /// By node: the weight of its links within its side, and across the border.
+    /// For each node the weight of its links within its side.
     within: Vec<u32>,
+    /// For each node the weight of its links across the border.
     across: Vec<u32>,
-    /// By node: the last pass that moved it.
+    /// For each node the last pass that moved it.
     moved_in: Vec<u32>,
-    /// Nodes of each side that may be moved; entries that are no longer true are passed over.
+    /// Nodes of each side that may be moved, by gain; outdated entries are skipped.
     candidates: [BinaryHeap<Candidate>; 2],
     moves: Vec<u32>,
     nearby: Nearby,
 }
 
-/// A node and its gain in one number, which orders by gain, then by the lowest node.
+/// Candidate for a move: a node and its gain in one number, ordered by gain, then by the lowest
+/// node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Candidate(u64);
 
@@ -69,7 +75,7 @@ impl Candidate {
 }
 
 impl Refinement {
-    /// Improves a cut with two connected halves, which stay connected.
+    /// Improves a cut with two connected halves, which stay connected. Returns its quality.
     pub(super) fn refine(&mut self, graph: &Graph, shares: Shares, halves: &mut [Half]) -> Quality {
         let mut cut = Cut::new(self, graph, shares, halves);
         let mut quality = cut.quality();
@@ -84,11 +90,11 @@ impl Refinement {
     }
 }
 
-/// A cut of a graph, and what is known of it.
+/// Cut of a graph, with weights and border kept up to date.
 struct Cut<'a> {
     graph: &'a Graph,
     shares: Shares,
-    /// What the halves may weigh.
+    /// Most that each half may weigh.
     limits: [u32; 2],
     halves: &'a mut [Half],
     weights: [u32; 2],
@@ -134,6 +140,7 @@ impl<'a> Cut<'a> {
         }
     }
 
+    /// Returns the quality of the cut as it is now.
     fn quality(&self) -> Quality {
         let excess = |side: usize| self.weights[side].saturating_sub(self.limits[side]);
         Quality {
@@ -143,7 +150,7 @@ impl<'a> Cut<'a> {
         }
     }
 
-    /// One pass. Returns the quality of the cut it leaves, which is not worse than before.
+    /// Runs one pass. Returns the quality of the cut it leaves, which is not worse than before.
     fn improve(&mut self, pass: u32) -> Quality {
         self.known.candidates.iter_mut().for_each(BinaryHeap::clear);
         self.known.moves.clear();
@@ -182,19 +189,20 @@ impl<'a> Cut<'a> {
         }
     }
 
+    /// Whether a node is on the border and this pass has not moved it.
     #[inline]
     fn may_be_moved(&self, node: u32, pass: u32) -> bool {
         self.known.across[node as usize] > 0 && self.known.moved_in[node as usize] < pass
     }
 
-    /// How much shorter the border becomes if a node is moved.
+    /// Returns by how much the border becomes shorter if a node is moved.
     #[inline]
     fn gain(&self, node: u32) -> i32 {
         self.known.across[node as usize].cast_signed()
             - self.known.within[node as usize].cast_signed()
     }
 
-    /// The best node to move, if there is one.
+    /// Takes the best node to move, if there is one.
     fn next(&mut self, pass: u32) -> Option<u32> {
         // If a side is too heavy, it is the fuller one.
         let fuller = self.shares.fuller(self.weights);
@@ -215,14 +223,14 @@ impl<'a> Cut<'a> {
             } else {
                 too_much < excess
             };
-            // One that must stay is offered again when something next to it is moved.
+            // A node that must stay is offered again when one beside it is moved.
             if fits && self.known.nearby.may_leave(self.graph, self.halves, node) {
                 return Some(node);
             }
         }
     }
 
-    /// The best candidate of a side, once those that are no longer true are gone.
+    /// Returns the best candidate of a side; removes outdated ones before it.
     fn best(&mut self, side: usize, pass: u32) -> Option<Candidate> {
         while let Some(&candidate) = self.known.candidates[side].peek() {
             let node = candidate.node();
@@ -237,6 +245,7 @@ impl<'a> Cut<'a> {
         None
     }
 
+    /// Moves a node to the other side.
     fn change_side(&mut self, node: u32) {
         let here = node as usize;
         let weight = self.graph.weight(node);

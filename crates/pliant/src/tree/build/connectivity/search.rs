@@ -1,28 +1,29 @@
-//! Breadth-first search.
+//! Breadth-first search over a graph.
 
 use super::graph::Graph;
 
-/// What a search found; its memory is used again by the next.
+/// Breadth-first search: its result; its memory is reused by the next search.
 #[derive(Debug, Default)]
 pub(super) struct Search {
     /// Nodes in the order in which they were reached.
     pub(super) order: Vec<u32>,
-    /// Links to the start, by node.
+    /// Distance of each node from the start, in links.
     pub(super) distances: Vec<u32>,
 }
 
-/// The distance of what was not reached.
+/// Sentinel: the distance of a node that was not reached.
 pub(super) const UNREACHED: u32 = u32::MAX;
 
 impl Search {
-    /// Forgets everything; `nodes` is the size of the next graph.
+    /// Prepares for a graph of `nodes` nodes, none of which is reached.
     pub(super) fn clear(&mut self, nodes: usize) {
         self.order.clear();
         self.distances.clear();
         self.distances.resize(nodes, UNREACHED);
     }
 
-    /// Reaches what is connected with `start`; what earlier searches reached since `clear` is not reached again.
+    /// Reaches all that is connected with `start`, except what was reached since
+    /// [`clear`](Self::clear).
     pub(super) fn reach(&mut self, graph: &Graph, start: u32) {
         let mut next = self.order.len();
         self.distances[start as usize] = 0;
@@ -41,7 +42,7 @@ impl Search {
         }
     }
 
-    /// Searches a connected graph anew, and returns a node that is farthest from the start.
+    /// Searches a connected graph from `start`, and returns a node that is farthest.
     pub(super) fn farthest(&mut self, graph: &Graph, start: u32) -> u32 {
         self.clear(graph.len());
         self.reach(graph, start);

@@ -1,23 +1,26 @@
-//! A cut for graphs like trees: one side is a subtree of a breadth-first tree.
+//! Fallback cut for graphs that are like trees: one side is a subtree of a breadth-first tree.
 //!
-//! Both halves of it are connected. Where many arms are equally far from two ends, a cut between them may leave all of these on
-//! one side; this one does not: of k links at most at each node, some subtree has at least a k-th of the weight (less one
-//! node) and not much more than half, so that halving ends after few levels on any mesh, where k is six.
+//! Both halves are connected. Where many arms are equally far from two ends, a cut between ends may
+//! leave all of them on one side. This cut does not. With at most k links a node, some subtree has
+//! at least a k-th of the weight (less one node) and little more than half. So halving ends after
+//! few levels on any mesh, where k is six.
 
 use super::graph::Graph;
 use super::halves::{Half, Shares};
 use super::search::Search;
 
+/// Search for a subtree to cut off; its memory is reused from graph to graph.
 #[derive(Debug, Default)]
 pub(super) struct Subtree {
     search: Search,
-    /// By node: the node above, and the weight of its subtree.
+    /// Parent of each node in the breadth-first tree.
     above: Vec<u32>,
+    /// Weight of the subtree of each node.
     weights: Vec<u32>,
 }
 
 impl Subtree {
-    /// Cuts a connected graph of two nodes or more.
+    /// Cuts a connected graph of two nodes or more, nearest to the shares.
     pub(super) fn cut_off(&mut self, graph: &Graph, shares: Shares, halves: &mut Vec<Half>) {
         let root = self.search.farthest(graph, 0);
         self.search.farthest(graph, root);

@@ -1,16 +1,17 @@
-//! Every two elements whose boxes are within a margin of each other.
+//! Reference of candidates: all pairs of elements whose boxes are within a margin.
 
-use crate::all_pairs::{ElementPairs, Moving, Part};
+use crate::all_pairs::{Element, ElementPairs, Moving};
 use crate::error::Error;
 use crate::geometry::Real;
 use crate::world::scalar::Scalar;
 
-/// The candidates (vertex of a, triangle of b), sorted, as
-/// [`World::vertex_triangle_candidates`](crate::World::vertex_triangle_candidates) means them.
+/// Candidates (vertex of a, triangle of b), sorted, as in
+/// [`World::vertex_triangle_candidates`](crate::World::vertex_triangle_candidates). Cost: O(n_a
+/// m_b).
 ///
 /// # Errors
 ///
-/// Those of [`intersection_pairs`](crate::reference::intersection_pairs).
+/// The errors of [`intersection_pairs`](crate::reference::intersection_pairs).
 pub fn vertex_triangle_pairs<S: Scalar>(
     a: &Moving<S>,
     b: &Moving<S>,
@@ -19,11 +20,11 @@ pub fn vertex_triangle_pairs<S: Scalar>(
     ElementPairs::VerticesAndTriangles.that(a, Some(b), near(radius))
 }
 
-/// The candidates (vertex, triangle) of one body with itself, sorted.
+/// Candidates (vertex, triangle) of one body with itself, sorted. Cost: O(n m).
 ///
 /// # Errors
 ///
-/// Those of [`intersection_pairs`](crate::reference::intersection_pairs).
+/// The errors of [`intersection_pairs`](crate::reference::intersection_pairs).
 pub fn self_vertex_triangle_pairs<S: Scalar>(
     body: &Moving<S>,
     radius: f64,
@@ -31,11 +32,12 @@ pub fn self_vertex_triangle_pairs<S: Scalar>(
     ElementPairs::VerticesAndTriangles.that(body, None, near(radius))
 }
 
-/// The candidates (edge of a, edge of b), sorted, as [`World::edge_edge_candidates`](crate::World::edge_edge_candidates) means them.
+/// Candidates (edge of a, edge of b), sorted, as in
+/// [`World::edge_edge_candidates`](crate::World::edge_edge_candidates). Cost: O(m_a m_b).
 ///
 /// # Errors
 ///
-/// Those of [`intersection_pairs`](crate::reference::intersection_pairs).
+/// The errors of [`intersection_pairs`](crate::reference::intersection_pairs).
 pub fn edge_edge_pairs<S: Scalar>(
     a: &Moving<S>,
     b: &Moving<S>,
@@ -44,11 +46,11 @@ pub fn edge_edge_pairs<S: Scalar>(
     ElementPairs::EdgesAndEdges.that(a, Some(b), near(radius))
 }
 
-/// The candidates (smaller edge, larger edge) of one body with itself, sorted.
+/// Candidates (smaller edge, larger edge) of one body with itself, sorted. Cost: O(m^2).
 ///
 /// # Errors
 ///
-/// Those of [`intersection_pairs`](crate::reference::intersection_pairs).
+/// The errors of [`intersection_pairs`](crate::reference::intersection_pairs).
 pub fn self_edge_edge_pairs<S: Scalar>(
     body: &Moving<S>,
     radius: f64,
@@ -56,7 +58,7 @@ pub fn self_edge_edge_pairs<S: Scalar>(
     ElementPairs::EdgesAndEdges.that(body, None, near(radius))
 }
 
-/// Whether the boxes of two elements are near each other, at both ends of their motions.
-fn near<S: Real>(radius: f64) -> impl Fn(Part<S>, Part<S>) -> bool {
+/// Whether the boxes of two elements, over both ends of their motions, are within twice `radius`.
+fn near<S: Real>(radius: f64) -> impl Fn(Element<S>, Element<S>) -> bool {
     move |(a, of_a), (b, of_b)| a.box_of(of_a).are_within(&b.box_of(of_b), 2.0 * radius)
 }

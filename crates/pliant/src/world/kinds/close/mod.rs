@@ -1,4 +1,4 @@
-//! Elements that are close to each other, as users ask for them.
+//! Queries for close pairs of elements: at most a distance apart, with their closest points.
 
 pub(crate) mod reference;
 
@@ -19,25 +19,32 @@ use crate::world::query::Query;
 use crate::world::scalar::Scalar;
 use crate::world::state::State;
 
-/// Which elements are close to each other.
+/// # Questions: close vertices, edges and triangles
 impl<S: Scalar> World<S> {
-    /// Asks which vertices are close to which triangles, in the shape of now: those at most `distance` apart, with their closest points.
-    /// See [`close_edge_edge_pairs`](Self::close_edge_edge_pairs) for the other half. It is what penalty, barrier and position-based
-    /// solvers push apart.
+    /// Asks which vertices are at most `distance` from which triangles in the present shape, with
+    /// closest points.
     ///
-    /// Whether a pair is that close is decided exactly, in real arithmetic on the numbers given. Distance, direction and closest points are
-    /// as good as [`CloseVertexTriangle`] says. Which pairs are looked at is said at
-    /// [`vertex_triangle_candidates`](Self::vertex_triangle_candidates): no corner of a triangle is close to it, vertex groups and filters
-    /// count. A motion is not looked at; while there is one, more candidates are.
+    /// Penalty, barrier and position-based solvers push these apart. See
+    /// [`close_edge_edge_pairs`](Self::close_edge_edge_pairs) for the other half. The distance is
+    /// in the unit of the positions.
+    ///
+    /// Whether a pair is that close is decided exactly, in real arithmetic on the numbers given.
+    /// [`CloseVertexTriangle`] says how good distance, direction and closest points are. Which
+    /// pairs are looked at is said at
+    /// [`vertex_triangle_candidates`](Self::vertex_triangle_candidates): no corner of a triangle is
+    /// close to it, and vertex groups and filters count. A motion changes no answer, but while
+    /// there is one, more candidates are looked at.
     ///
     /// ```
     /// # use pliant::{Selection, World};
     /// let mut world = World::<f64>::new();
-    /// let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
+    /// let large = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]];
+    /// let floor = world.add(&[[0, 1, 2]], &large)?;
     /// let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.25], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
     /// let thickness = 0.5;
     /// for close in world.close_vertex_triangle_pairs(Selection::World, thickness).all()? {
-    ///     assert_eq!((close.pair.vertex_body, close.pair.vertex, close.distance), (leaf, 0, 0.25));
+    ///     assert_eq!((close.pair.vertex_body, close.pair.vertex), (leaf, 0));
+    ///     assert_eq!(close.distance, 0.25);
     ///     assert_eq!(close.direction, Some([0.0, 0.0, 1.0]));
     ///     // How far to push, shared by the vertex and the corners of the triangle.
     ///     let push = thickness - close.distance;
@@ -49,7 +56,7 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// Those of [`Query`].
+    /// The errors of [`Query`].
     #[doc(alias = "NormalCollisions")]
     #[doc(alias = "point_triangle_distance")]
     pub fn close_vertex_triangle_pairs(
@@ -60,12 +67,16 @@ impl<S: Scalar> World<S> {
         Query::<CloseVertexTriangle>::new(&mut *self.verbs, of).within(distance)
     }
 
-    /// Asks which edges are close to which edges, as [`close_vertex_triangle_pairs`](Self::close_vertex_triangle_pairs) asks it of vertices
-    /// and triangles. Edges have the numbers that [`edges`](Self::edges) gives them; two that have an end in common are not looked at.
+    /// Asks which edges are at most `distance` from which edges in the present shape, with closest
+    /// points.
+    ///
+    /// All is as for [`close_vertex_triangle_pairs`](Self::close_vertex_triangle_pairs). Edges have
+    /// the numbers that [`edges`](Self::edges) gives them; two that have an end in common are not
+    /// looked at.
     ///
     /// # Errors
     ///
-    /// Those of [`Query`].
+    /// The errors of [`Query`].
     #[doc(alias = "edge_edge_distance")]
     pub fn close_edge_edge_pairs(
         &mut self,

@@ -1,17 +1,19 @@
-//! Every two elements that are at most some distance apart, decided in integers.
+//! Reference of close pairs: all pairs of elements at most a distance apart, decided in integers.
 
-use crate::all_pairs::{ElementPairs, Moving, Part};
+use crate::all_pairs::{Element, ElementPairs, Moving};
 use crate::error::Error;
 use crate::geometry::Real;
 use crate::world::scalar::Scalar;
 use pliant_exact::distance::{Primitives, are_within_distance};
 
-/// The pairs (vertex of a, triangle of b) that are at most so far apart, sorted, as
-/// [`World::close_vertex_triangle_pairs`](crate::World::close_vertex_triangle_pairs) means them. Where bodies are going does not count.
+/// Pairs (vertex of a, triangle of b) at most `distance` apart, sorted, as in
+/// [`World::close_vertex_triangle_pairs`](crate::World::close_vertex_triangle_pairs).
+///
+/// Motions do not count. Cost: O(n_a m_b).
 ///
 /// # Errors
 ///
-/// Those of [`intersection_pairs`](crate::reference::intersection_pairs).
+/// The errors of [`intersection_pairs`](crate::reference::intersection_pairs).
 pub fn close_vertex_triangle_pairs<S: Scalar>(
     a: &Moving<S>,
     b: &Moving<S>,
@@ -20,11 +22,11 @@ pub fn close_vertex_triangle_pairs<S: Scalar>(
     ElementPairs::VerticesAndTriangles.that(a, Some(b), close(distance))
 }
 
-/// The pairs (vertex, triangle) of one body that are at most so far apart, sorted.
+/// Pairs (vertex, triangle) of one body at most `distance` apart, sorted. Cost: O(n m).
 ///
 /// # Errors
 ///
-/// Those of [`intersection_pairs`](crate::reference::intersection_pairs).
+/// The errors of [`intersection_pairs`](crate::reference::intersection_pairs).
 pub fn self_close_vertex_triangle_pairs<S: Scalar>(
     body: &Moving<S>,
     distance: f64,
@@ -32,12 +34,12 @@ pub fn self_close_vertex_triangle_pairs<S: Scalar>(
     ElementPairs::VerticesAndTriangles.that(body, None, close(distance))
 }
 
-/// The pairs (edge of a, edge of b) that are at most so far apart, sorted, as
-/// [`World::close_edge_edge_pairs`](crate::World::close_edge_edge_pairs) means them.
+/// Pairs (edge of a, edge of b) at most `distance` apart, sorted, as in
+/// [`World::close_edge_edge_pairs`](crate::World::close_edge_edge_pairs). Cost: O(m_a m_b).
 ///
 /// # Errors
 ///
-/// Those of [`intersection_pairs`](crate::reference::intersection_pairs).
+/// The errors of [`intersection_pairs`](crate::reference::intersection_pairs).
 pub fn close_edge_edge_pairs<S: Scalar>(
     a: &Moving<S>,
     b: &Moving<S>,
@@ -46,11 +48,11 @@ pub fn close_edge_edge_pairs<S: Scalar>(
     ElementPairs::EdgesAndEdges.that(a, Some(b), close(distance))
 }
 
-/// The pairs (smaller edge, larger edge) of one body that are at most so far apart, sorted.
+/// Pairs (smaller edge, larger edge) of one body at most `distance` apart, sorted. Cost: O(m^2).
 ///
 /// # Errors
 ///
-/// Those of [`intersection_pairs`](crate::reference::intersection_pairs).
+/// The errors of [`intersection_pairs`](crate::reference::intersection_pairs).
 pub fn self_close_edge_edge_pairs<S: Scalar>(
     body: &Moving<S>,
     distance: f64,
@@ -58,10 +60,10 @@ pub fn self_close_edge_edge_pairs<S: Scalar>(
     ElementPairs::EdgesAndEdges.that(body, None, close(distance))
 }
 
-/// Whether two elements are at most so far apart, now.
-fn close<S: Real>(distance: f64) -> impl Fn(Part<S>, Part<S>) -> bool {
+/// Whether two elements are at most `distance` apart in the present shape.
+fn close<S: Real>(distance: f64) -> impl Fn(Element<S>, Element<S>) -> bool {
     move |(a, of_a), (b, of_b)| {
-        // What is further apart on one axis is further apart.
+        // Whatever is further apart on one axis is further apart.
         if !a.box_now(of_a).are_within(&b.box_now(of_b), distance) {
             return false;
         }

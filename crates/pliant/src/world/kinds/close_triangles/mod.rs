@@ -1,4 +1,4 @@
-//! Triangles that are close to each other, as users ask for them.
+//! Queries for close triangles: at most a distance apart, with their closest points.
 
 pub(crate) mod reference;
 
@@ -16,20 +16,24 @@ use crate::world::query::Query;
 use crate::world::scalar::Scalar;
 use crate::world::state::State;
 
-/// Which triangles are close to each other.
+/// # Questions: close triangles of bodies
 impl<S: Scalar> World<S> {
-    /// Asks which triangles are close to each other, in the shape of now: those at most `distance` apart, with their closest points. Those
-    /// that intersect are, at distance 0.
+    /// Asks which triangles are at most `distance` apart in the present shape, with their closest
+    /// points.
     ///
-    /// Whether a pair is that close is decided exactly, in real arithmetic on the numbers given. As with
-    /// [`intersections`](Self::intersections), triangles of one body that share a vertex of the mesh are left out. Those that are
-    /// neighbours but for that always are close: this is for bodies that should keep a distance from each other.
+    /// Triangles that intersect are at distance 0. The distance is in the unit of the positions.
+    /// Whether a pair is that close is decided exactly, in real arithmetic on the numbers given. As
+    /// with [`intersections`](Self::intersections), triangles of one body that share a vertex of
+    /// the mesh are left out. Their next neighbours are always close: this question is for bodies
+    /// that should keep a distance from each other.
     ///
     /// ```
     /// # use pliant::{Selection, World};
     /// let mut world = World::<f64>::new();
-    /// let skin = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
-    /// let shirt = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.002], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
+    /// let large = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]];
+    /// let skin = world.add(&[[0, 1, 2]], &large)?;
+    /// let pointed = [[0.0, 0.0, 0.002], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]];
+    /// let shirt = world.add(&[[0, 1, 2]], &pointed)?;
     /// let close = world.close_triangle_pairs(Selection::Between(shirt, skin), 0.004).all()?;
     /// assert_eq!((close[0].distance, close[0].barycentric_a), (0.002, [1.0, 0.0, 0.0]));
     /// # Ok::<(), pliant::Error>(())
@@ -37,7 +41,7 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// Those of [`Query`].
+    /// The errors of [`Query`].
     #[doc(alias = "within_distance")]
     pub fn close_triangle_pairs(
         &mut self,

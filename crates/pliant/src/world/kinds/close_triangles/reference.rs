@@ -1,4 +1,5 @@
-//! Every two triangles that are at most some distance apart, decided in integers.
+//! Reference of close triangles: all pairs of triangles at most a distance apart, decided in
+//! integers.
 
 use crate::all_pairs::{triangles_that, without};
 use crate::error::Error;
@@ -8,12 +9,12 @@ use pliant_exact::Triangle;
 use pliant_exact::distance::{Primitives, are_within_distance};
 use pliant_exact::reference::intersect;
 
-/// The pairs (triangle of a, triangle of b) that are at most so far apart, sorted, as
-/// [`World::close_triangle_pairs`](crate::World::close_triangle_pairs) means them.
+/// Pairs (triangle of a, triangle of b) at most `distance` apart, sorted, as in
+/// [`World::close_triangle_pairs`](crate::World::close_triangle_pairs). Cost: O(m_a m_b).
 ///
 /// # Errors
 ///
-/// Those of [`intersection_pairs`](crate::reference::intersection_pairs).
+/// The errors of [`intersection_pairs`](crate::reference::intersection_pairs).
 pub fn close_triangle_pairs<S: Scalar>(
     triangles_a: &[[u32; 3]],
     positions_a: &[[S; 3]],
@@ -25,11 +26,12 @@ pub fn close_triangle_pairs<S: Scalar>(
     triangles_that(a, Some(b), |a, b| are_close(a, b, distance).then_some(())).map(without)
 }
 
-/// The pairs (smaller triangle, larger triangle) of one body that share no vertex and are at most so far apart, sorted.
+/// Pairs (smaller triangle, larger triangle) of one body that share no vertex and are at most
+/// `distance` apart, sorted. Cost: O(m^2).
 ///
 /// # Errors
 ///
-/// Those of [`intersection_pairs`](crate::reference::intersection_pairs).
+/// The errors of [`intersection_pairs`](crate::reference::intersection_pairs).
 pub fn self_close_triangle_pairs<S: Scalar>(
     triangles: &[[u32; 3]],
     positions: &[[S; 3]],
@@ -39,9 +41,9 @@ pub fn self_close_triangle_pairs<S: Scalar>(
     triangles_that(body, None, |a, b| are_close(a, b, distance).then_some(())).map(without)
 }
 
-/// Whether two triangles intersect, or any of their elements are at most so far apart.
+/// Whether two triangles intersect, or any of their elements are at most `distance` apart.
 fn are_close(a: &Triangle, b: &Triangle, distance: f64) -> bool {
-    // What is further apart on one axis is further apart.
+    // Whatever is further apart on one axis is further apart.
     let box_of = |corners: &Triangle| {
         let mut bounds = Bounds::EMPTY;
         corners.iter().for_each(|&corner| bounds.include(corner));

@@ -1,4 +1,4 @@
-//! How triangles intersect, as users ask for it.
+//! Queries for contacts: triangles that intersect, and how.
 
 pub(crate) mod reference;
 
@@ -14,16 +14,20 @@ use crate::world::query::Query;
 use crate::world::scalar::Scalar;
 use crate::world::state::State;
 
-/// How triangles intersect.
+/// # Questions: how triangles intersect
 impl<S: Scalar> World<S> {
-    /// Asks which triangles intersect, as [`intersections`](Self::intersections) does, and how: whether they cross, overlap in one plane, or
-    /// only touch. [`Query::only`] leaves out what is not of one kind: where surfaces lie on each other, along a cut or in a stack, it finds
-    /// what goes through.
+    /// Asks which triangles intersect and how: whether they cross, overlap in one plane, or only
+    /// touch.
+    ///
+    /// The pairs are those that [`intersections`](Self::intersections) finds; [`ContactKind`] shows
+    /// the kinds. [`Query::only`] keeps one kind. Where surfaces lie on each other, along a cut or
+    /// in a stack, it finds what goes through.
     ///
     /// ```
     /// # use pliant::{ContactKind, Selection, World};
     /// let mut world = World::new();
-    /// let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
+    /// let large = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]];
+    /// let floor = world.add(&[[0, 1, 2]], &large)?;
     /// let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]])?;
     /// let contacts = world.contacts(Selection::Between(floor, leaf)).all()?;
     /// assert_eq!(contacts[0].kind, ContactKind::Touching);
@@ -33,14 +37,15 @@ impl<S: Scalar> World<S> {
     /// # Ok::<(), pliant::Error>(())
     /// ```
     ///
-    /// Cost: a pair whose kind no rounded sign tells takes its exact signs once more.
+    /// Cost: as intersections. A pair whose kind no rounded sign tells takes its exact signs once
+    /// more.
     pub fn contacts(&mut self, of: Selection) -> Query<'_, Contact> {
         Query::new(&mut *self.verbs, of)
     }
 }
 
 impl Query<'_, Contact> {
-    /// Contacts of this kind alone: the others are no hits.
+    /// Keeps contacts of this kind alone: others are no hits.
     pub fn only(mut self, kind: ContactKind) -> Self {
         self.request.only = Some(kind);
         self

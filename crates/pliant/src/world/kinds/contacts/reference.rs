@@ -1,4 +1,4 @@
-//! Every two triangles that intersect, and how, by exact signs.
+//! Reference of contacts: all pairs of triangles and their kinds, by exact signs.
 
 use crate::all_pairs::triangles_that;
 use crate::error::Error;
@@ -7,11 +7,12 @@ use crate::world::scalar::Scalar;
 use pliant_exact::Triangle;
 use pliant_exact::reference::{contact_kind, intersect};
 
-/// The pairs (triangle of a, triangle of b) that intersect, and how, sorted by pair.
+/// Pairs (triangle of a, triangle of b) that intersect, with their kinds, sorted by pair. Cost:
+/// O(m_a m_b).
 ///
 /// # Errors
 ///
-/// Those of [`intersection_pairs`](crate::reference::intersection_pairs).
+/// The errors of [`intersection_pairs`](crate::reference::intersection_pairs).
 pub fn contacts<S: Scalar>(
     triangles_a: &[[u32; 3]],
     positions_a: &[[S; 3]],
@@ -22,11 +23,12 @@ pub fn contacts<S: Scalar>(
     triangles_that(a, Some(b), kind_of_contact)
 }
 
-/// The pairs (smaller triangle, larger triangle) of one body that intersect and share no vertex, and how, sorted by pair.
+/// Pairs (smaller triangle, larger triangle) of one body that intersect and share no vertex, with
+/// their kinds, sorted by pair. Cost: O(m^2).
 ///
 /// # Errors
 ///
-/// Those of [`intersection_pairs`](crate::reference::intersection_pairs).
+/// The errors of [`intersection_pairs`](crate::reference::intersection_pairs).
 pub fn self_contacts<S: Scalar>(
     triangles: &[[u32; 3]],
     positions: &[[S; 3]],

@@ -1,7 +1,8 @@
-//! When single pairs of elements first meet, for who has a search of their own.
+//! First contacts of single pairs of elements, for callers with a search of their own.
 //!
-//! The decision is that of [`World::vertex_triangle_impacts`](crate::World::vertex_triangle_impacts), eight pairs side by side where that
-//! is enough.
+//! Decisions are those that
+//! [`World::vertex_triangle_impacts`](crate::World::vertex_triangle_impacts) makes; separating
+//! directions are tried for eight pairs side by side.
 
 use crate::error::{Error, ErrorKind};
 use crate::kernels::apart::apart;
@@ -10,12 +11,17 @@ use crate::threads::Interrupt;
 use crate::world::scalar::Scalar;
 use pliant_exact::motion::{Grid, Moving, impact};
 
-/// When vertices first meet triangles that move: of each pair the vertex and the three corners, at the start and at the end of the motion.
+/// Finds when vertices first meet triangles that move, pair by pair, shape (k, 4, 3) at the start
+/// and the end.
 ///
-/// Corners move on straight lines, in real arithmetic. The answer for a pair is `None` if they never meet, as closed sets, from time 0 to
-/// time 1, which is decided exactly; else [low, high]: they are apart from 0 to low, both included, and meet after that and not after high;
-/// or [0, 0] if they meet at the start. It is at most `width` wide, which is finite and at least 0, as
-/// [`Query::width`](crate::Query::width) says; 10^-6 is a good one.
+/// A pair is the vertex and the three corners, in this order. They move on straight lines, in real
+/// arithmetic, from time 0 to time 1.
+///
+/// The answer for a pair is `None` if they never meet, as closed sets, which is decided exactly.
+/// Else it is an interval [low, high] of times. They are apart from 0 to low, both included, and
+/// first meet after low and not after high. The interval is [0, 0] if they meet at the start. It is
+/// at most `width` wide, which is finite and at least 0, as [`Query::width`](crate::Query::width)
+/// says; 10^-6 is a good one.
 ///
 /// ```
 /// let triangle = [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
@@ -29,13 +35,15 @@ use pliant_exact::motion::{Grid, Moving, impact};
 /// # Ok::<(), pliant::Error>(())
 /// ```
 ///
-/// Cost: some tens of nanoseconds a pair that does not meet, less than a microsecond for most others; tens of microseconds for what only
-/// exact arithmetic can tell, and some ten milliseconds where coordinates of a pair are a thousand powers of two apart. One thread.
+/// Cost, on one thread: some tens of nanoseconds for a pair that does not meet, less than a
+/// microsecond for most others. Where only exact arithmetic can tell it is tens of microseconds. It
+/// is some ten milliseconds where coordinates of a pair are a thousand powers of two apart.
 ///
 /// # Errors
 ///
-/// [`DifferentCounts`](crate::ErrorKind::DifferentCounts), [`BadWidth`](crate::ErrorKind::BadWidth), and
-/// [`BadCorner`](crate::ErrorKind::BadCorner) for the first coordinate that is NaN, infinite or above `f32::MAX` in magnitude.
+/// [`DifferentCounts`](crate::ErrorKind::DifferentCounts),
+/// [`BadWidth`](crate::ErrorKind::BadWidth). [`BadCorner`](crate::ErrorKind::BadCorner) for the
+/// first coordinate that is NaN, infinite or above `f32::MAX` in magnitude.
 #[doc(alias = "point_triangle_ccd")]
 pub fn vertex_triangle_impacts<S: Scalar>(
     start: &[[[S; 3]; 4]],
@@ -45,12 +53,15 @@ pub fn vertex_triangle_impacts<S: Scalar>(
     pair_impacts(false, start, end, width, None)
 }
 
-/// When edges first meet edges that move: of each pair both ends of the one and both of the other, at the start and at the end of the
-/// motion; as [`vertex_triangle_impacts`] says.
+/// Finds when edges first meet edges that move, pair by pair, shape (k, 4, 3) at the start and the
+/// end.
+///
+/// A pair is both ends of one edge, then both ends of the other. All else is as for
+/// [`vertex_triangle_impacts`].
 ///
 /// # Errors
 ///
-/// Those of [`vertex_triangle_impacts`].
+/// The errors of [`vertex_triangle_impacts`].
 #[doc(alias = "edge_edge_ccd")]
 pub fn edge_edge_impacts<S: Scalar>(
     start: &[[[S; 3]; 4]],
@@ -60,17 +71,21 @@ pub fn edge_edge_impacts<S: Scalar>(
     pair_impacts(true, start, end, width, None)
 }
 
-/// The corners of a pair at the start and at the end, each with padding.
+/// Corners of a pair at the start and at the end, each padded to four lanes.
 type Padded = [[[f64; 4]; 4]; 2];
 
-/// So many eights are known to be apart before it is asked whether somebody wants to stop.
+/// Groups of eight pairs between two looks at an interruption. Groups that lanes keep apart cost
+/// little, so it need not be looked more often.
 const UNINTERRUPTED: usize = 1024;
 
-/// Of vertices and triangles or of edges, ended early where `question` says so: it is asked before each pair that takes long.
+/// Finds first contacts of vertices and triangles or of edges, and ends early where `question` says
+/// so.
+///
+/// It is asked before each pair that takes long.
 ///
 /// # Errors
 ///
-/// Those of [`vertex_triangle_impacts`], and [`Interrupted`](crate::ErrorKind::Interrupted).
+/// The errors of [`vertex_triangle_impacts`], and [`Interrupted`](crate::ErrorKind::Interrupted).
 #[doc(hidden)]
 pub fn pair_impacts<S: Scalar>(
     are_edges: bool,
@@ -103,7 +118,7 @@ pub fn pair_impacts<S: Scalar>(
         }
         let mut eight: [Padded; 8] = [[[[0.0; 4]; 4]; 2]; 8];
         for lane in 0..8 {
-            // What is left of the last eight is filled with the first.
+            // Lanes that the last group does not fill take its first pair.
             let of = if lane < start.len() { lane } else { 0 };
             eight[lane] = [start[of], end[of]].map(|corners| corners.map(padded));
         }

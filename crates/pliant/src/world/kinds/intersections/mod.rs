@@ -1,4 +1,5 @@
-//! Triangles that intersect, as users ask for them. A question for the first begins with the last answer.
+//! Queries for triangles that intersect. A query for the first begins with the pair that answered
+//! last.
 
 pub(crate) mod reference;
 
@@ -17,21 +18,25 @@ use crate::world::query::Query;
 use crate::world::scalar::Scalar;
 use crate::world::state::State;
 
-/// Which triangles intersect.
+/// # Questions: triangles that intersect
 impl<S: Scalar> World<S> {
-    /// Asks which triangles intersect, of different bodies or of one: pairs of them, as closed sets. Touching counts. The
-    /// [`Selection`] says who is asked about; the [`Query`] that comes back, how much is wanted.
+    /// Asks which triangles intersect, between bodies or within one: pairs of triangles as closed
+    /// sets; touching counts.
     ///
-    /// Within a body, triangles that share a vertex of the mesh are left out: they always touch. Surfaces only: a body wholly inside
-    /// another meets none of its triangles.
+    /// The [`Selection`] says whom the question is about. The [`Query`] that comes back is told how
+    /// much is wanted. Within a body, triangles that share a vertex of the mesh are left out, for
+    /// they always touch. Surfaces only: a body wholly inside another meets none of its triangles.
+    ///
+    /// [`Query`] says the errors, [`Query::all`] the cost.
     ///
     /// ```
     /// # use pliant::{Selection, World};
     /// # let mut world = World::<f32>::new();
-    /// # let shirt = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
-    /// # let skin = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
+    /// # let shirt = world.add(&[[0, 1, 2]], &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
+    /// # let skin = world.add(&[[0, 1, 2]], &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
     /// for pair in world.intersections(Selection::Between(shirt, skin)).all()? {
-    ///     println!("triangle {} of the shirt meets triangle {} of the skin", pair.triangle_a, pair.triangle_b);
+    ///     let [shirt, skin] = pair.triangles();
+    ///     println!("triangle {shirt} of the shirt meets triangle {skin} of the skin");
     /// }
     /// if world.intersections(Selection::Everything).first()?.is_none() {
     ///     println!("nothing meets anything");
@@ -58,7 +63,7 @@ impl<S: Coordinate> Ask<Pair> for State<S> {
             .all(kind, &mut self.common, request)
     }
 
-    /// Begins with the last answer: see `witness`.
+    /// Asks the witness, the pair that answered last, before all others: see `witness`.
     fn first(&mut self, request: &Request) -> Result<Option<Pair>, Error> {
         let last = match request.of {
             Selection::World => self.witnesses.of_world[0],
@@ -96,9 +101,9 @@ impl<S: Coordinate> Ask<Pair> for State<S> {
     }
 }
 
-/// The pair that answered the last question for a first pair.
+/// The witness: the pair that answered the last question for a first pair.
 impl<S: Coordinate> State<S> {
-    /// Whether bodies that were there are there still, and meet in a query of these.
+    /// Whether two bodies are still there, and meet in a query of this selection.
     fn do_meet(&self, [a, b]: [BodyId; 2], of: Selection) -> bool {
         let (Ok(body_a), Ok(body_b)) = (self.body(a), self.body(b)) else {
             return false;
@@ -110,7 +115,8 @@ impl<S: Coordinate> State<S> {
         }
     }
 
-    /// A pair of these bodies at or near the last answer, if one intersects. What it does is counted in any case.
+    /// Finds a pair of these bodies at or near the last answer, if one intersects. Its work is
+    /// counted in any case.
     fn ask_witness(
         &mut self,
         bodies: [BodyId; 2],

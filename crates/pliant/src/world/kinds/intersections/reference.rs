@@ -1,15 +1,16 @@
-//! Every two triangles that intersect, by exact signs.
+//! Reference of intersections: all pairs of triangles, by exact signs.
 
 use crate::all_pairs::{triangles_that, without};
 use crate::error::Error;
 use crate::world::scalar::Scalar;
 use pliant_exact::reference::intersect;
 
-/// The pairs (triangle of a, triangle of b) that intersect, sorted.
+/// Pairs (triangle of a, triangle of b) that intersect, sorted. Cost: O(m_a m_b).
 ///
 /// # Errors
 ///
-/// [`VertexOutOfRange`](crate::ErrorKind::VertexOutOfRange), [`BadPosition`](crate::ErrorKind::BadPosition) and the others of
+/// [`VertexOutOfRange`](crate::ErrorKind::VertexOutOfRange),
+/// [`BadPosition`](crate::ErrorKind::BadPosition) and the other errors of
 /// [`World::add`](crate::World::add).
 pub fn intersection_pairs<S: Scalar>(
     triangles_a: &[[u32; 3]],
@@ -21,11 +22,12 @@ pub fn intersection_pairs<S: Scalar>(
     triangles_that(a, Some(b), |a, b| intersect(a, b).then_some(())).map(without)
 }
 
-/// The pairs (smaller triangle, larger triangle) of one body that intersect and share no vertex, sorted.
+/// Pairs (smaller triangle, larger triangle) of one body that intersect and share no vertex,
+/// sorted. Cost: O(m^2).
 ///
 /// # Errors
 ///
-/// Those of [`intersection_pairs`].
+/// The errors of [`intersection_pairs`].
 pub fn self_intersection_pairs<S: Scalar>(
     triangles: &[[u32; 3]],
     positions: &[[S; 3]],

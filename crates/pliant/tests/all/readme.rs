@@ -1,10 +1,13 @@
-//! What people read first: the README of the repository shows the example of the package's, which is compiled and run as documentation;
-//! whoever begins is told how debug builds are quick; and methods of `World` come in the order in which they are met.
+//! Documents that people read first.
+//!
+//! The README of the repository shows the example of the package's README, which is compiled and
+//! run as documentation. The first screens say how debug builds become quick. Methods of `World`
+//! are documented in the order in which users need them.
 
 use std::fs;
 use std::path::Path;
 
-/// The blocks of Rust in a text.
+/// The blocks of Rust code in a text.
 fn blocks(text: &str) -> Vec<&str> {
     let behind = text.split("```rust\n").skip(1);
     behind
@@ -19,7 +22,7 @@ fn both_readmes_show_the_same_code() {
     assert_eq!(blocks(include_str!("../../../../README.md")), package);
 }
 
-/// Of the first page of the guide, and of the crate's documentation.
+/// The package's README and the guide name the remedy for slow debug builds on their first screen.
 #[test]
 fn whoever_begins_is_told_of_debug_builds() {
     let first_screens = [
@@ -32,7 +35,7 @@ fn whoever_begins_is_told_of_debug_builds() {
     }
 }
 
-/// The texts of the files that a module is made of, each before those that it declares.
+/// The texts of the files of a module, each before the files that it declares.
 fn texts(module: &Path) -> Vec<String> {
     let file = module.with_extension("rs");
     let file = if file.exists() {
@@ -49,7 +52,7 @@ fn texts(module: &Path) -> Vec<String> {
     [vec![text], inner].concat()
 }
 
-/// As rustdoc lists them: a file after the other, in the order in which modules declare them.
+/// Methods in the order of rustdoc: file by file, as modules declare them.
 #[test]
 fn worlds_are_documented_in_the_order_in_which_they_are_met() {
     let world = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/world");

@@ -35,7 +35,7 @@ const NEAR: [(&str, u64, usize); 5] = [
 
 /// Hash and number of close pairs at each step of [`COMMITTED`], and hash over figures.
 ///
-/// Figures are those of the close pairs, and the distances of bodies.
+/// Figures describe the close pairs, or are distances of bodies.
 const CLOSE: [(&str, (u64, usize, u64)); 5] = [
     (
         "spheres",

@@ -4,7 +4,7 @@
 
 use pliant::{Selection, World};
 
-/// Two triangles that span a square of this half width at this height.
+/// Vertices of a square with this half width, at this height.
 fn square(half: f64, z: f64) -> [[f64; 3]; 4] {
     [
         [-half, -half, z],
@@ -20,7 +20,7 @@ fn main() -> Result<(), pliant::Error> {
     world.add(&triangles, &square(1.0, 0.0))?;
     let bullet = world.add(&triangles, &square(0.1, 1.0))?;
 
-    // In one step it would be far behind the other: no shape at the end of a step intersects.
+    // In one step it would be far behind the other, where the shapes do not intersect.
     world.set_motion(bullet, &square(0.1, -5.0))?;
     let first = world.first_impact(Selection::World, 1e-6)?;
     if let Some(impact) = first {

@@ -1,4 +1,4 @@
-//! A lent pool: pliant works on the rayon threads that the application has already.
+//! Lent thread pool: pliant works on the rayon threads that the application already has.
 //!
 //! `cargo run -p pliant --example lent_pool`
 

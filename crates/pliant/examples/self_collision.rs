@@ -7,7 +7,9 @@ use pliant::{ContactKind, Selection, World};
 /// Squares along the strip; each is two triangles.
 const SQUARES: u32 = 60;
 
-/// The strip as a roll of this many turns, whose radius does not grow: from one turn on it meets itself.
+/// Shape of the strip as a roll with this many turns.
+///
+/// The radius does not grow, so from one turn on the strip meets itself.
 fn roll(turns: f64) -> Vec<[f64; 3]> {
     let point = |row: u32, y: f64| {
         let along = f64::from(row) / f64::from(SQUARES);

@@ -1,4 +1,4 @@
-//! Tearing: a cloth is torn from one side to the other, a vertex a step, and falls into two bodies.
+//! Tearing: a cloth is torn from one side to the other, and falls into two bodies.
 //!
 //! `cargo run -p pliant --example tearing`
 

@@ -1,4 +1,4 @@
-//! Replaying the same steps a second time on one thread allocates nothing in the library.
+//! Replaying the same steps on one thread allocates nothing in the library.
 
 mod common;
 
@@ -7,7 +7,7 @@ use pliant::{BroadPhase, Degree, Options, Partition, Selection, World};
 use pliant_scenes::Scene;
 
 fn replay(scene: &Scene, options: Options, steps: &[u32]) {
-    // All shapes in advance: what is counted is the library's.
+    // All shapes are made in advance, so that only the library's allocations are counted.
     let shapes: Vec<Vec<Vec<[f32; 3]>>> = steps
         .iter()
         .map(|&step| {

@@ -1,7 +1,8 @@
-//! What a world keeps for a triangle, with all that a step needs: counted by an allocator that counts, bounded here.
+//! Memory of a world a triangle, with all that a step needs, as a counting allocator sees it.
 //!
 //! ```sh
-//! cargo test --release -p pliant --test memory -- --include-ignored --nocapture    # prints the figures; a million triangles too
+//! # Prints the figures; a million triangles too.
+//! cargo test --release -p pliant --test memory -- --include-ignored --nocapture
 //! ```
 
 mod common;
@@ -13,10 +14,12 @@ use pliant_scenes::{Asks, Scene};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
-/// Bytes a triangle that the default options may take, at f32.
+/// The bound of the default options at `f32`, in bytes a triangle.
 const MOST: f64 = 200.0;
 
-/// What a world says that it holds is what an allocator gave out for it: within a hundredth, and a little that does not grow.
+/// Compares [`World::memory_usage`] with what the allocator gave out.
+///
+/// They agree within a hundredth, and a little that does not grow.
 fn is_said_rightly<S: Scalar>(world: &World<S>, given_out: i64) {
     let (said, given_out) = (world.memory_usage() as f64, given_out as f64);
     println!("says {said} bytes, {given_out} were given out");
@@ -28,7 +31,7 @@ fn is_said_rightly<S: Scalar>(world: &World<S>, given_out: i64) {
 
 /// Bytes a triangle that are live after several steps with every call and every query there is.
 fn bytes_a_triangle<S: Scalar>(scene: &Scene, convert: fn(f32) -> S) -> f64 {
-    // All shapes in advance: what is counted is the library's.
+    // All shapes are made in advance, so that only the library's allocations are counted.
     let steps = scene.steps();
     let shapes: Vec<Vec<Vec<[S; 3]>>> = [1, steps / 2, steps, steps - 1]
         .iter()
@@ -106,13 +109,14 @@ fn within_bounds(name: &str, triangles: usize) {
         Asks::Itself => "a body that meets itself",
     };
     println!(
-        "{name}, {triangles} triangles, {what}: {single:.1} bytes a triangle at f32, {double:.1} at f64"
+        "{name}, {triangles} triangles, {what}: \
+         {single:.1} bytes a triangle at f32, {double:.1} at f64"
     );
     assert!(single <= MOST, "{name}: {single} bytes a triangle");
     assert!(double <= MOST, "{name} at f64: {double} bytes a triangle");
 }
 
-/// 200 bytes a triangle are a promise at f32; today they hold at f64 too.
+/// 200 bytes a triangle are promised at `f32`; today they hold at `f64` too.
 #[test]
 fn a_triangle_takes_at_most_200_bytes() {
     within_bounds("spheres", 20_480);
@@ -125,7 +129,9 @@ fn a_triangle_of_a_million_takes_at_most_200_bytes() {
     within_bounds("spheres", 1_310_720);
 }
 
-/// A world of slanted triangles side by side in one place, each a body: every two boxes overlap, and no two triangles intersect.
+/// Slanted triangles side by side in one place, each a body.
+///
+/// Every two boxes overlap, and no two triangles intersect.
 fn leaves_of_a_book(count: u32, options: Options) -> World<f32> {
     let mut world = World::with_options(options);
     for leaf in 0..count {
@@ -136,7 +142,7 @@ fn leaves_of_a_book(count: u32, options: Options) -> World<f32> {
     world
 }
 
-/// Two million pairs of bodies would be 16 MB in one list.
+/// One list of all two million pairs of bodies would take 16 MB.
 #[test]
 fn many_bodies_in_one_place_are_met_without_a_list_of_all_their_pairs() {
     const COUNT: u32 = 2_000;
@@ -160,7 +166,7 @@ fn many_bodies_in_one_place_are_met_without_a_list_of_all_their_pairs() {
     }
 }
 
-/// Whoever wants the first pair waits for no other.
+/// The first pair is found without a look at any later pair.
 #[test]
 fn the_first_pair_of_many_bodies_in_one_place_comes_at_once() {
     let mut world = leaves_of_a_book(10_000, Options::default());
@@ -172,11 +178,13 @@ fn the_first_pair_of_many_bodies_in_one_place_comes_at_once() {
     assert_eq!(world.statistics().body_pairs, 10_000);
 }
 
-/// Bytes that a body of one triangle may take: met by nobody, and after all bodies met themselves.
+/// The bounds of a body of one triangle, in bytes: met by nobody, and once all bodies met
+/// themselves.
 const MOST_OF_A_SMALL_BODY: [i64; 2] = [1_400, 3_100];
 
-/// With every way to look for bodies that may meet, and with threads: what they keep is counted too.
-/// Two grids, one above the other, that go the same way together: nothing meets, and on a long way every box overlaps every other.
+/// Two grids, one above the other, that move together.
+///
+/// Nothing meets, and on a long way every box overlaps every other.
 #[test]
 fn how_far_all_may_go_takes_no_memory_for_candidates() {
     const SIDE: u32 = 30;
@@ -204,10 +212,11 @@ fn how_far_all_may_go_takes_no_memory_for_candidates() {
     });
     println!("bytes held and candidates: {short:?}, then {long:?}");
     assert!(short.1 == 0 && long.1 > 10_000_000, "{short:?} {long:?}");
-    // A list of them, each of which is looked at four times at most, would take 80 MB.
+    // A list of the candidates, each of which is looked at four times at most, would take 80 MB.
     assert!(long.0 < short.0 + 4_000_000, "{short:?} {long:?}");
 }
 
+/// Every broad phase, with and without threads: what they keep is counted too.
 #[test]
 fn a_world_says_how_much_it_holds() {
     for (broad_phase, threads) in [
@@ -218,7 +227,7 @@ fn a_world_says_how_much_it_holds() {
         let mut options = Options::default();
         options.broad_phase = broad_phase;
         options.threads = NonZeroUsize::new(threads).unwrap();
-        // Threads are not counted.
+        // Memory of the threads themselves is not counted.
         let mut world = World::<f64>::with_options(options);
         let corners = |body: u32| {
             [
@@ -255,7 +264,7 @@ fn a_world_says_how_much_it_holds() {
     }
 }
 
-/// One thread: the pool's own memory is not counted.
+/// Every kind of query, on one thread: the memory of the pool itself is not counted.
 #[test]
 fn all_that_every_kind_keeps_is_said() {
     let scene = Scene::new("cloth", Some(648), Scene::DEFAULT_SEED).unwrap();

@@ -1,4 +1,4 @@
-//! What a query is asked with: selections, limits, interruptions, threads that are lent, and what is done early.
+//! Options of one query: selections, limits, interruption, lent threads, and preparation ahead.
 
 mod common;
 
@@ -22,7 +22,7 @@ fn cloth(options: Options, triangles: usize) -> (World<f32>, BodyId) {
     (world, body)
 }
 
-/// Two spheres deep in each other and a third apart.
+/// Two spheres deep in each other, and a third sphere apart.
 fn spheres(options: Options) -> (World<f32>, Vec<BodyId>) {
     let scene = Scene::new("spheres", Some(1_280), Scene::DEFAULT_SEED).unwrap();
     let mut world = World::with_options(options);
@@ -59,7 +59,8 @@ fn preparing_does_what_the_query_would_do_first() {
         prepared.intersections(of).prepare().unwrap();
         assert_eq!(prepared.intersections(of).all().unwrap(), expected);
         assert_eq!(prepared.statistics(), asked.statistics(), "{update:?}");
-        // Nothing is left for the query itself: it is prepared for all of a body that meets itself.
+        // The query itself has nothing left to do: all boxes of a body that meets itself are
+        // prepared.
         prepared.intersections(of).all().unwrap();
         assert_eq!(boxes(prepared.statistics()), [0; 3], "{update:?}");
         if update == Update::HYBRID {
@@ -82,15 +83,15 @@ fn a_last_answer_that_no_longer_holds_is_counted() {
     ] {
         world.set_positions(other, &upper(0.0)).unwrap();
         assert!(world.intersections(of).first().unwrap().is_some());
-        // Now parallel, their boxes still overlapping: asked again in vain, and then by the traversal.
+        // Now parallel, with boxes that still overlap: asked again in vain, then by the traversal.
         world.set_positions(other, &upper(1.0)).unwrap();
         assert_eq!(world.intersections(of).first().unwrap(), None);
-        // (In vain thrice: the pair itself, its leaf, its leaf's siblings.)
+        // In vain three times: the pair itself, its leaf, its leaf's siblings.
         assert_eq!(world.statistics().candidate_pairs, 3 + 1, "{of:?}");
     }
 }
 
-/// All that a world can be asked, as plain data.
+/// Intersections of the world, of everything, and of each body with itself and with others.
 fn answers(world: &mut World<f32>, bodies: &[BodyId]) -> Vec<Vec<Pair>> {
     let mut of = vec![Selection::World, Selection::Everything];
     of.extend(bodies.iter().map(|&body| Selection::Within(body)));
@@ -99,7 +100,9 @@ fn answers(world: &mut World<f32>, bodies: &[BodyId]) -> Vec<Vec<Pair>> {
     of.into_iter().map(ask).collect()
 }
 
-/// Interrupted at every place where it looks, one after the other, a world answers as if nothing had happened.
+/// A query is interrupted at every place where it looks, one after the other.
+///
+/// Afterwards the world answers as if nothing had happened.
 #[test]
 fn a_query_that_was_interrupted_anywhere_leaves_a_good_world() {
     for threads in [1, 3] {
@@ -119,7 +122,7 @@ fn a_query_that_was_interrupted_anywhere_leaves_a_good_world() {
             let mut allowed = 0;
             loop {
                 let (mut world, bodies) = spheres(options);
-                // Boxes of some are valid when it begins.
+                // Some boxes are valid when it begins.
                 let between = Selection::Between(bodies[1], bodies[0]);
                 world.intersections(between).first().unwrap();
                 let looks = AtomicUsize::new(0);
@@ -137,7 +140,7 @@ fn a_query_that_was_interrupted_anywhere_leaves_a_good_world() {
                 if is_whole {
                     break;
                 }
-                // Every look at first, and then fewer of them.
+                // At first every look is tried, then fewer of them.
                 allowed += 1 + allowed / 12;
             }
             assert!(allowed > 30, "{allowed} looks are no test");
@@ -159,7 +162,7 @@ fn visits_first_hits_and_preparation_can_be_interrupted() {
         let visited = query.visit(|_| ControlFlow::Break(()));
         assert!(visited.is_err_and(interrupted));
     }
-    // Asked after a first answer, too, which would be the next.
+    // Interrupted after a first answer, too, which would be tried again first.
     let never = || false;
     let first = world
         .intersections(Selection::World)
@@ -168,7 +171,7 @@ fn visits_first_hits_and_preparation_can_be_interrupted() {
     assert!(first.unwrap().is_some());
 }
 
-/// Whatever a visitor was shown before it was interrupted was a hit, and no hit was shown twice.
+/// Every pair that a visitor saw before an interruption is a hit, and none is shown twice.
 #[test]
 fn what_an_interrupted_visitor_was_shown_was_true() {
     for threads in [1, 3] {
@@ -182,7 +185,7 @@ fn what_an_interrupted_visitor_was_shown_was_true() {
             .to_vec();
         for allowed in (0..400).step_by(7) {
             let (mut world, _) = spheres(options);
-            // Tasks have found something before.
+            // Tasks have found something before, so their lists are not empty.
             world.intersections(Selection::Everything).all().unwrap();
             let looks = AtomicUsize::new(0);
             let question = || looks.fetch_add(1, Ordering::Relaxed) >= allowed;
@@ -205,7 +208,7 @@ fn what_an_interrupted_visitor_was_shown_was_true() {
     }
 }
 
-/// Two flat sheets, one on the other: most of what is close there touches, and is measured exactly.
+/// Two flat sheets, one on the other: most close pairs there touch, and are measured exactly.
 fn sheets_that_touch(side: u32) -> World<f32> {
     let (triangles, flat) = sheet(side);
     let mut world = World::new();
@@ -215,7 +218,7 @@ fn sheets_that_touch(side: u32) -> World<f32> {
     world
 }
 
-/// What an interrupted visitor of close pairs was shown was measured, and a world that was interrupted answers as before.
+/// Close pairs that an interrupted visitor saw were measured, and the world answers as before.
 #[test]
 fn close_pairs_that_touch_can_be_interrupted() {
     let of = Selection::World;
@@ -249,17 +252,19 @@ fn close_pairs_that_touch_can_be_interrupted() {
     assert!(interrupted > 5, "{interrupted}");
 }
 
-/// A world that is asked something, by a query that can be ended.
+/// A world, and a question to it whose query can be interrupted.
 struct Asked {
     name: &'static str,
     world: World<f32>,
     ask: fn(&mut World<f32>, &(dyn Fn() -> bool + Sync)) -> Result<usize, pliant::Error>,
-    /// How many hits there are at least.
+    /// The least number of hits.
     hits: usize,
 }
 
-/// What takes long in different ways: a first query of a large body with itself, a query all of whose decisions are exact, long lists, many
-/// bodies.
+/// Queries that take long in different ways.
+///
+/// A first query of a large body with itself, one all of whose decisions are exact, long lists,
+/// many bodies.
 fn what_takes_long() -> Vec<Asked> {
     let all = |world: &mut World<f32>, look: &(dyn Fn() -> bool + Sync)| {
         let found = world.intersections(Selection::World).interrupt_if(look);
@@ -321,7 +326,7 @@ fn what_takes_long() -> Vec<Asked> {
         name: "many bodies",
         world: many_bodies,
         ask: |world, look| {
-            // All their boxes overlap, and nothing is found before every pair of them was asked.
+            // All boxes overlap, and nothing is found before every pair has been asked.
             let first = world.intersections(Selection::World).interrupt_if(look);
             first.first().map(|first| usize::from(first.is_some()))
         },
@@ -331,8 +336,9 @@ fn what_takes_long() -> Vec<Asked> {
 }
 
 impl Asked {
-    /// The work that was counted when a query was ended at the look after so many, where what takes some tens of nanoseconds is 1; and how
-    /// many looks there were.
+    /// Work counted until a query was interrupted after `allowed` looks, and the number of looks.
+    ///
+    /// One unit of work takes some tens of nanoseconds.
     fn work_at(&self, allowed: usize) -> (u64, usize) {
         let mut world = self.world.clone();
         let looks = AtomicUsize::new(0);
@@ -348,9 +354,11 @@ impl Asked {
         (work, looks.into_inner())
     }
 
-    /// Fails if more than so much is done between two looks. Work is counted some at a time: what is counted at once was done since the
-    /// looks at which nothing was, and is divided by these. Where little is done between looks that are far apart, those in between need not
-    /// be looked for.
+    /// Fails if more than `most` units of work lie between two looks.
+    ///
+    /// Counters are added to in batches. A batch was done since the looks at which the counters
+    /// stood still, and is divided by the number of those looks. Spans with little work are
+    /// skipped, however many looks they have.
     fn assert_between_looks(&self, most: u64) {
         let (total, looks) = self.work_at(usize::MAX);
         let mut spans = vec![([0, looks], [self.work_at(0).0, total])];
@@ -397,10 +405,10 @@ impl Asked {
     }
 }
 
-/// As [`Asked::work_at`] counts.
+/// The bound on work between two looks, in the units of [`Asked::work_at`].
 const MOST_BETWEEN_LOOKS: u64 = 20_000;
 
-/// Between two looks a query does no more than some milliseconds take, counted in what it does.
+/// Between two looks a query does no more than some milliseconds of work, which is counted.
 #[test]
 fn looks_are_never_far_apart() {
     for asked in what_takes_long() {
@@ -435,7 +443,7 @@ fn a_pool_that_is_lent_gives_the_same_answers_from_inside_and_outside() {
         let inside = pool.install(|| answers(&mut world, &bodies));
         assert!(inside == expected, "{threads}, inside");
     }
-    // Several worlds share it at once.
+    // Several worlds share the pool at once.
     let ask = |_| {
         let mut options = Options::default();
         options.threads = NonZeroUsize::new(3).unwrap();

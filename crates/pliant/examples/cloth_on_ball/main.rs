@@ -1,19 +1,22 @@
-//! A cloth falls on a ball that swings to and fro: the loop of the paper's figure 1, with a response to what is found.
+//! Cloth on a swinging ball: the loop of the paper's figure 1, with three responses to contact.
 //!
-//! Position-based dynamics (Müller et al. 2007): points keep their velocity, fall, and are then put where edges have their
-//! length again. Contacts come from the pairs alone: where a triangle of the cloth meets one of the ball, its corners are pushed
-//! out along the ball triangle's normal, and rub. In one small step nothing moves further than a triangle is wide.
+//! The cloth moves by position-based dynamics (Müller et al. 2007). Points keep their velocity and
+//! fall; then edges get their lengths back. The responses differ in what they ask of the library:
 //!
-//! With `apart` the cloth keeps a thickness: contacts are the vertices and triangles, and edges and edges, that are closer than that, and
-//! each is put as far apart along the direction in which it is closest, again and again until all are. In a small step nothing moves
-//! further than the cloth is thick.
-//!
-//! With `free` nothing gets through however fast it is, and the cloth does not meet itself either: a step is eight times as long, and goes
-//! only as far as is proven to be free of contact. What is left of it is planned anew from there.
+//! - By default: pairs of triangles that intersect. The corners of the cloth's triangle are pushed
+//!   out along the normal of the ball's triangle, with friction. In one small step nothing moves
+//!   further than a triangle is wide.
+//! - `apart`: close pairs, so that the cloth keeps a thickness. Vertices and triangles, and edges
+//!   and edges, that are closer than it are contacts. Each is put apart along its closest
+//!   direction, in rounds, until all are. In a small step nothing moves further than the cloth is
+//!   thick.
+//! - `free`: free steps. Nothing gets through them, however fast it is, and the cloth does not meet
+//!   itself. A step is eight times as long, and goes only as far as is proven to be free of
+//!   contact. What is left of it is planned anew from there.
 //!
 //! ```sh
-//! cargo run --release -p pliant --example cloth_on_ball                # ten seconds of it
-//! cargo run --release -p pliant --example cloth_on_ball -- 10 frames   # and OBJ files, 30 a second, into a folder
+//! cargo run --release -p pliant --example cloth_on_ball              # ten seconds of it
+//! cargo run --release -p pliant --example cloth_on_ball -- 10 frames # OBJ files too, 30 a second
 //! pliant check 'frames/cloth_*.obj' 'frames/ball_*.obj' --count        # what each frame shows
 //! cargo run --release -p pliant --example cloth_on_ball -- 10 frames apart
 //! pliant check 'frames/cloth_*.obj' 'frames/ball_*.obj' --within 0.018 # nothing

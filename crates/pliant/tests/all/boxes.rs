@@ -1,11 +1,13 @@
-//! `f64` coordinates that `f32` boxes cannot hold: every box is that of what is below it, and no pair is lost, wherever the bodies
-//! are. That a box holds its triangles is tested in `geometry`, against exact sums: pairs alone would not show it, because any
-//! rounding that keeps order, to nearest too, keeps boxes that overlap overlapping.
+//! `f64` coordinates that `f32` boxes cannot hold, wherever the bodies are.
+//!
+//! Every box is the box of all that is below it, and no pair is lost. That a box holds its
+//! triangles is tested against exact sums in `geometry`. Pairs alone would not show it: any
+//! rounding that keeps order keeps overlapping boxes overlapping, rounding to nearest included.
 
 use crate::common::{Lcg, TrianglesOf, covering_configurations, sheet};
 use pliant::{Options, Scalar, Selection, World, reference};
 
-/// A crumpled sheet with all 53 bits in its coordinates.
+/// A crumpled sheet whose coordinates use all 53 bits.
 fn crumpled(side: u32, random: &mut Lcg) -> Vec<[f64; 3]> {
     let (_, flat) = sheet(side);
     let mut noise = || {
@@ -17,7 +19,7 @@ fn crumpled(side: u32, random: &mut Lcg) -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// Far from the origin, tiny, at both ends of the range.
+/// Moves a point far from the origin, close to it, or to either end of the range.
 fn placed(p: [f64; 3], frame: usize) -> [f64; 3] {
     match frame % 6 {
         0 => p,
@@ -38,7 +40,7 @@ fn check(options: Options, frames: &[[Vec<[f64; 3]>; 2]], truths: &[Vec<[u32; 2]
         world.set_positions(b, &frame[1]).unwrap();
         let found = world.triangles_of(Selection::Between(a, b));
         assert_eq!(&found, truth, "{options:?}");
-        // Every box that claims to be true is the box of its vertices and lies in its parent.
+        // Every box that claims to be valid is the box of its vertices and lies in its parent.
         world.validate().unwrap();
         world.intersections(Selection::World).prepare().unwrap();
         world.validate().unwrap();

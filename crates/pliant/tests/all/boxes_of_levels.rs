@@ -1,4 +1,4 @@
-//! Boxes of a level are those of the triangles below its nodes, and said to be made where they were made for the shape of now.
+//! Boxes of a level are tight around the triangles below, and say whether they are valid.
 
 use pliant::{BodyId, Degree, Options, Partition, Selection, Update, World};
 use std::num::NonZeroU32;
@@ -12,8 +12,9 @@ fn strip(up: f32) -> (Vec<[u32; 3]>, Vec<[f32; 3]>) {
     (triangles, positions)
 }
 
-/// How many different nodes the levels have, and how many of them are made. A leaf is in every level below it; its box is that
-/// of the same triangles, so the same run is counted once.
+/// Number of different nodes in all levels, and of those that are made.
+///
+/// A leaf is in every level below it with the same triangles, so the same run is counted once.
 fn nodes_and_made(world: &World<f32>, body: BodyId) -> [usize; 2] {
     let mut seen = std::collections::BTreeMap::new();
     for level in 0..=world.tree_shape(body).unwrap().depth {
@@ -85,7 +86,7 @@ fn made_are_the_boxes_that_the_statistics_count() {
         let nodes = world.tree_shape(body).unwrap().nodes;
         assert_eq!(nodes_and_made(&world, body), [nodes, 0]);
         for step in 1..4 {
-            // Both move; what was made for the shape before is not made for this one.
+            // Both move; a box that was made for the shape before is not made for this one.
             world
                 .set_positions(body, &strip(0.01 * step as f32).1)
                 .unwrap();

@@ -1,5 +1,7 @@
-//! Candidates within a margin, still and in motion, and close pairs: every configuration gives the lists of the plain reference, at every
-//! step of lives in which bodies move, turn back, stop on the way, are pinned, kept apart and given other meshes.
+//! Candidates within a margin, and close pairs: every configuration gives the reference's lists.
+//!
+//! Candidates are asked for at rest and in motion, at every step of random lives of worlds. Bodies
+//! move, turn back, stop on the way, are pinned, kept apart and given other meshes.
 
 use crate::common::{Lcg, every_configuration, share, sheet};
 use pliant::reference::{self, Moving};
@@ -11,7 +13,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
-/// What a test knows of a body.
+/// The test's own copy of a body.
 #[derive(Clone, Debug)]
 struct Known<S> {
     id: BodyId,
@@ -32,18 +34,18 @@ impl<S> Known<S> {
     }
 }
 
-/// What is asked.
+/// A question to ask of every selection.
 #[derive(Clone, Copy, Debug)]
 enum Question {
     /// Candidates of a margin.
     Near(f64),
-    /// Pairs at most so far apart.
+    /// Pairs at most this far apart.
     Close(f64),
 }
 
 use Question::{Close, Near};
 
-/// Both lists.
+/// Pairs of vertices with triangles, and of edges with edges.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Lists {
     vertex_triangle: Vec<VertexTriangle>,
@@ -118,7 +120,7 @@ impl Lists {
     }
 }
 
-/// What the world says; *first*, *visit_some* and *at_most* agree with *all*.
+/// The world's lists; asserts that *first*, *visit_some* and *at_most* agree with *all*.
 fn ask<S: Scalar>(
     world: &mut World<S>,
     known: &[Known<S>],
@@ -179,7 +181,9 @@ fn ask<S: Scalar>(
     as_the_reference(world, known, lists)
 }
 
-/// Edges keep their numbers when a body gets another mesh; the reference's are sorted.
+/// Lists with the reference's numbers of edges, which are sorted.
+///
+/// A body's edges keep their numbers when it gets another mesh.
 fn as_the_reference<S: Scalar>(
     world: &mut World<S>,
     known: &[Known<S>],
@@ -244,7 +248,7 @@ fn check_edge_edge<S: Scalar>(
     check_figures(&[a, b].concat(), hit.distance, hit.direction, most);
 }
 
-/// The way that is the sum of corners, each times what it counts, has the length and the direction that are said.
+/// Checks that the weighted sum of corners has the distance and the direction of the hit.
 fn check_figures<S: Scalar>(
     sum: &[(f64, [S; 3])],
     distance: f64,
@@ -275,7 +279,7 @@ fn check_figures<S: Scalar>(
     }
 }
 
-/// Asks of everybody.
+/// Asks every selection, and compares with the reference.
 fn check<S: Scalar>(
     world: &mut World<S>,
     known: &[Known<S>],
@@ -327,7 +331,7 @@ fn check<S: Scalar>(
     );
 }
 
-/// Adjacency of every kind.
+/// Meshes with adjacency of every kind.
 fn mesh(random: &mut Lcg) -> (Vec<[u32; 3]>, usize) {
     match random.below(6) {
         // A sheet, with a vertex that nothing uses.
@@ -335,13 +339,13 @@ fn mesh(random: &mut Lcg) -> (Vec<[u32; 3]>, usize) {
             let side = 2 + random.below(5);
             (sheet(side).0, (side * side) as usize + 1)
         }
-        // A fan, and triangles twice.
+        // A fan, with duplicates of triangles.
         1 => {
             let rim = 3 + random.below(12);
             let fan = (1..rim).map(|at| [0, at, at + 1]);
             (fan.clone().chain(fan.take(2)).collect(), rim as usize + 1)
         }
-        // Many triangles on one edge.
+        // Many triangles at one edge.
         2 => {
             let leaves = 1 + random.below(12);
             (
@@ -354,13 +358,13 @@ fn mesh(random: &mut Lcg) -> (Vec<[u32; 3]>, usize) {
             let degenerate = vec![[0, 1, 1], [2, 2, 2], [3, 4, 5], [5, 5, 0], [0, 1, 2]];
             (degenerate, 6)
         }
-        // A soup.
+        // A soup: triangles that share no vertex.
         4 => {
             let triangles = 1 + random.below(20);
             let soup = (0..triangles).map(|at| [3 * at, 3 * at + 1, 3 * at + 2]);
             (soup.collect(), 3 * triangles as usize)
         }
-        // A tangle.
+        // A tangle: random corners over few vertices.
         _ => {
             let vertices = 3 + random.below(9);
             let corner = |random: &mut Lcg| random.below(vertices);
@@ -489,7 +493,7 @@ fn lives<S: Scalar>(
                     world = world.clone();
                 }
                 _ => {
-                    // What is refused changes nothing.
+                    // Refused calls change nothing.
                     let body = &known[some];
                     let mut end = body.positions.clone();
                     end[0][2] = of(f64::NAN);
@@ -531,7 +535,8 @@ fn lives<S: Scalar>(
                     groups,
                 });
             }
-            // Half of a multiple of the unit is a tie on the lattice; the margins of all coordinates, and of none.
+            // Half of a multiple of the unit is a tie on the lattice. The extreme margins reach
+            // everything, or only what touches.
             let radius = match random.below(6) {
                 0 => 0.0,
                 1 => unit,
@@ -541,7 +546,8 @@ fn lives<S: Scalar>(
                 _ => [f64::MAX, 1e38, 5e-324, 1e-300][random.below(4) as usize],
             };
             let mut questions = vec![Near(radius)];
-            // What touches, and what is at the ends of the range, is measured in integers: much of it takes long.
+            // Pairs that touch, or are at the ends of the range, are measured in integers, which
+            // takes long.
             if step % close_every == 0 && radius <= 4.0 * unit {
                 questions.push(Close(radius));
             }
@@ -550,7 +556,7 @@ fn lives<S: Scalar>(
                 check(&mut world, &known, &apart, asked, &when);
             }
             if let Some(body) = known.get(some) {
-                // Intersections know nothing of motions.
+                // Motions do not change intersections.
                 let before =
                     reference::self_intersection_pairs(&body.triangles, &body.positions).unwrap();
                 let found = world
@@ -644,7 +650,9 @@ fn everything_is_close_within_the_largest_distances() {
     }
 }
 
-/// A triangle, a place near each of its seven parts, and the same for edges: wherever that is, the part is named.
+/// The closest features are named rightly, for triangles and edges.
+///
+/// A triangle has a place near each of its seven parts: corners, edges and face.
 #[test]
 fn the_closest_features_are_named() {
     let random = &mut Lcg(5);
@@ -691,7 +699,7 @@ fn the_closest_features_are_named() {
         ] {
             world.set_positions(other, &ends).unwrap();
             let close = world.close_edge_edge_pairs(Selection::Between(triangle, other), 3.0);
-            // Edge 0 is that of the corners 0 and 1.
+            // Edge 0 has the corners 0 and 1.
             let found = close.all().unwrap().iter().find(|hit| hit.pair.edge_a == 0);
             assert_eq!(found.unwrap().features(), features, "{ends:?} {found:?}");
         }

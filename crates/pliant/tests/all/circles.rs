@@ -1,33 +1,32 @@
-//! Modules use each other in no circle, in every crate of the workspace.
+//! No circle among modules, in any crate of the workspace.
 //!
-//! A module is a file, or a folder with all that is in it. The modules of a folder stand beside
-//! each other, and so does the folder's own file, `mod.rs` or `lib.rs`. One uses another where its
-//! code names it. A name that a module hands on counts for the module that defines it; to hand it
-//! on is no use. Unit tests may use what they like.
+//! Beside each other stand the modules of a folder, its folders as wholes, and its own file. A
+//! module uses another where its code names it, directly or by a name that a third one hands on. To
+//! hand a name on is no use, and unit tests may use what they like. The code is read as words and
+//! signs, not compiled: methods, and names that macros make, do not count. `layers.rs` says which
+//! folder of the library may use which.
 //!
-//! The code is read as words and signs, not compiled. So methods do not count, and neither do
-//! names that a macro makes. `layers.rs` says of the library which folder may use which.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Where a module is in its crate: the names of those around it, then its own.
+/// Path of a module in its crate: the names of the modules around it, then its own.
 type Place = Vec<String>;
 
-// What a file says.
+// Reading a file.
 
-/// A file without comments, texts and unit tests.
+/// A file's code without comments, texts and unit tests.
 struct Module {
-    /// Words and signs, without what begins with `use`.
+    /// Words and signs, without `use` declarations.
     tokens: Vec<String>,
     imports: Vec<Import>,
 }
 
 /// One name that a `use` brings.
 struct Import {
-    /// What it is called here; `*` stands for all names of another module.
+    /// The name in this module; `*` stands for all names of another module.
     name: String,
     path: Vec<String>,
     is_public: bool,
@@ -63,7 +62,7 @@ fn tokens(text: &str) -> Vec<String> {
     tokens
 }
 
-/// The length of the text or character in quotes that begins here, if one does.
+/// Length of the text or character literal that begins here, if one does.
 fn length_of_text(rest: &str) -> Option<usize> {
     let plain = rest.strip_prefix('b').unwrap_or(rest);
     let before = rest.len() - plain.len();
@@ -91,7 +90,7 @@ fn length_of_text(rest: &str) -> Option<usize> {
     None
 }
 
-/// How many tokens there are from an opening bracket to the one that closes it.
+/// Number of tokens from an opening bracket to the one that closes it.
 fn length_in_brackets(tokens: &[String]) -> usize {
     let mut depth = 0;
     let ends = tokens.iter().position(|token| {
@@ -105,7 +104,7 @@ fn length_in_brackets(tokens: &[String]) -> usize {
     ends.map_or(tokens.len(), |end| end + 1)
 }
 
-/// How many tokens the item or the member of a list has that begins here.
+/// Number of tokens of the item or member of a list that begins here.
 fn length_of_item(tokens: &[String]) -> usize {
     const ITEMS: [&str; 13] = [
         "pub", "fn", "use", "mod", "impl", "struct", "enum", "const", "static", "type", "trait",
@@ -130,7 +129,7 @@ fn length_of_item(tokens: &[String]) -> usize {
     at
 }
 
-/// The tokens without those for tests only, and the names of modules that are.
+/// The tokens without items for tests only, and the names of modules for tests only.
 fn without_tests(tokens: &[String]) -> (Vec<String>, Vec<String>) {
     const MARK: [&str; 7] = ["#", "[", "cfg", "(", "test", ")", "]"];
     let (mut kept, mut modules) = (Vec::new(), Vec::new());
@@ -154,7 +153,7 @@ fn without_tests(tokens: &[String]) -> (Vec<String>, Vec<String>) {
     (kept, modules)
 }
 
-/// In modules that a file has within itself, `super` is the file: it becomes `self`.
+/// Turns `super` into `self` in modules within a file, where it is the file itself.
 fn flatten(tokens: &mut [String]) {
     let mut is_module = Vec::new();
     for at in 0..tokens.len() {
@@ -172,7 +171,7 @@ fn flatten(tokens: &mut [String]) {
     }
 }
 
-/// Adds the names that a `use` brings, given what stands between it and its `;`.
+/// Adds the names that a `use` brings, given the tokens between it and its `;`.
 fn add_imports(tokens: &[String], is_public: bool, before: &[String], all: &mut Vec<Import>) {
     let mut path = before.to_vec();
     let mut name = None;
@@ -216,7 +215,7 @@ fn add_imports(tokens: &[String], is_public: bool, before: &[String], all: &mut 
 }
 
 impl Module {
-    /// What a file says, and which modules below it are for tests only.
+    /// Reads a file's code; also names the modules below it that are for tests only.
     fn read(text: &str) -> (Self, Vec<String>) {
         let (mut all, tests) = without_tests(&tokens(text));
         flatten(&mut all);
@@ -241,12 +240,12 @@ impl Module {
         (Self { tokens, imports }, tests)
     }
 
-    /// What is called so here, if a `use` brings it.
+    /// The import that brings this name, if one does.
     fn import(&self, name: &str) -> Option<&Import> {
         self.imports.iter().find(|import| import.name == name)
     }
 
-    /// All paths of two names or more, apart from those of `use`.
+    /// All paths of two names or more outside of `use` declarations.
     fn paths(&self) -> Vec<Vec<String>> {
         let is_name = |token: &String| token.starts_with(|c: char| c.is_alphabetic() || c == '_');
         let mut paths = Vec::new();
@@ -277,9 +276,9 @@ impl Module {
     }
 }
 
-// Who uses whom.
+// Dependencies between modules.
 
-/// The modules of a crate by their places; that of the root is empty.
+/// The modules of a crate by their places; the root's place is empty.
 struct Crate(BTreeMap<Place, Module>);
 
 impl Crate {
@@ -301,8 +300,9 @@ impl Crate {
         Self(modules)
     }
 
-    /// The module that defines what a path names that is written in another; `None` if that is
-    /// no module of this crate. `left`: how often names may lead to others.
+    /// Defining module of a path that is written in `from`; `None` outside of this crate.
+    ///
+    /// `left` is how often names may lead to others.
     fn defining(&self, from: &Place, path: &[String], left: usize) -> Option<Place> {
         let (mut place, mut names) = (from.clone(), path);
         while let Some((name, rest)) = names.split_first() {
@@ -327,7 +327,7 @@ impl Crate {
         Some(place)
     }
 
-    /// Who uses whom, and by which names.
+    /// Dependencies: user and used module, with the names by which they are used.
     fn arrows(&self) -> BTreeMap<[&Place; 2], BTreeSet<String>> {
         let mut arrows: BTreeMap<_, BTreeSet<String>> = BTreeMap::new();
         for (from, module) in &self.0 {
@@ -359,8 +359,10 @@ impl Crate {
         arrows
     }
 
-    /// The arrows that are part of circles, folder by folder, as lines to read; none, no text.
-    /// Where `own` is false, a folder's own file is left out.
+    /// The arrows that are part of circles, folder by folder, as lines to read; empty if there are
+    /// none.
+    ///
+    /// Unless `own`, a folder's own file is left out.
     fn circles(&self, own: bool) -> String {
         let arrows = self.arrows();
         let folders = self.0.keys().filter_map(|place| place.split_last());
@@ -393,14 +395,14 @@ impl Crate {
     }
 }
 
-/// The place of a module that is directly in another.
+/// The place of a module directly in another.
 fn inner(place: &[String], name: &str) -> Place {
     let mut inner = place.to_vec();
     inner.push(name.to_owned());
     inner
 }
 
-/// The files in a folder and below it.
+/// Collects the files in a folder and below it.
 fn collect(folder: &Path, place: &mut Place, texts: &mut BTreeMap<Place, String>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -420,7 +422,7 @@ fn collect(folder: &Path, place: &mut Place, texts: &mut BTreeMap<Place, String>
     }
 }
 
-/// Whether arrows lead from one module to another.
+/// Whether arrows lead from one module to another, directly or through others.
 fn leads<T>(from: &String, to: &String, arrows: &BTreeMap<(String, String), T>) -> bool {
     let (mut seen, mut next) = (BTreeSet::from([from]), vec![from]);
     while let Some(user) = next.pop() {
@@ -476,9 +478,9 @@ fn the_library_has_no_circle() {
     assert!(said.is_empty(), "{said}");
 }
 
-// The test itself.
+// Tests of this test.
 
-/// Which modules use which in circles, in a crate of these files.
+/// The modules that use each other in circles, in a crate of these files.
 fn found(files: &[(&str, &str)], own: bool) -> Vec<String> {
     let texts = files.iter().map(|&(path, text)| {
         let names = path.split("::").filter(|name| !name.is_empty());
@@ -498,7 +500,7 @@ fn circles_are_found_however_they_are_written() {
     for (a, b) in [
         ("use crate::b::B;", "use crate::a::A;"),
         ("use super::{x, b::{self, B}};", "fn f(a: &super::a::A) {}"),
-        // What the parent hands on, by its name there.
+        // A name that the parent hands on, by its name there.
         ("fn f() { crate::Other::new('\"') }", "use crate::A;"),
         (
             "use super::*; struct A(Other);",
@@ -563,7 +565,7 @@ fn what_is_no_circle_is_not_found() {
             found(&files, true)
         );
     }
-    // Where something is seen.
+    // `pub(in path)` says where an item is visible; it uses nothing.
     let within = "mod within { pub(in super::super) fn f() {} }";
     let files = [("", "mod a; fn f() { a::f() }"), ("a", within)];
     assert!(found(&files, true).is_empty());

@@ -1,4 +1,4 @@
-//! Clearance: nothing touches while every vertex moves less than it, and more can be enough to touch.
+//! Clearance: nothing touches while every vertex moves less, and moving more can be enough.
 
 use crate::common::{Lcg, sheet};
 use pliant::reference::{self, Moving};
@@ -6,7 +6,7 @@ use pliant::{BodyId, Selection, World};
 
 type Points = Vec<[f64; 3]>;
 
-/// Two rough sheets, one above the other, of which some triangles are close; and where each vertex of theirs is.
+/// Two rough sheets, one above the other and partly close, with the positions of their vertices.
 fn sheets(random: &mut Lcg) -> (World<f64>, Vec<[u32; 3]>, Vec<(BodyId, Points)>) {
     let (triangles, _) = sheet(6);
     let mut world = World::new();
@@ -63,7 +63,7 @@ fn nothing_touches_below_it_and_something_can_above() {
         let clearance = world.clearance(Selection::Everything, cut_off).unwrap();
         assert_eq!(clearance.len(), 2);
 
-        // By what is listed.
+        // Against the definition: half of the least distance in the lists of close pairs.
         let every = Selection::Everything;
         let close = world.close_vertex_triangle_pairs(every, cut_off);
         let close = close.all().unwrap().to_vec();
@@ -112,7 +112,7 @@ fn nothing_touches_below_it_and_something_can_above() {
             assert!(!touches(&triangles, &moved));
         }
 
-        // The vertex that is closest goes as far as twice that, towards its triangle: it is there.
+        // The vertex of the closest pair goes twice as far, towards its triangle, and is there.
         let closest = close
             .iter()
             .min_by(|a, b| a.distance.total_cmp(&b.distance));
@@ -135,7 +135,7 @@ fn nothing_touches_below_it_and_something_can_above() {
             .unwrap()
             .iter()
             .any(|hit| hit.pair == closest.pair);
-        // Unless an edge of its own was closer to something.
+        // It is not there if an edge of the vertex was closer to something.
         let is_bound_by_it = limit > closest.distance / 2.0 * (1.0 - 1e-6);
         assert_eq!(is_there, is_bound_by_it);
         let again = world.clearance(every, cut_off).unwrap();

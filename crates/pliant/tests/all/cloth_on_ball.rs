@@ -1,4 +1,6 @@
-//! The loop of the paper's figure 1, as the example runs it: a cloth that reacts to the pairs reported stays on a moving ball.
+//! Figure 1 of the paper, as the example runs it: the cloth stays on the moving ball.
+//!
+//! The example's three responses to contact are tested one after the other.
 
 #[path = "../../examples/cloth_on_ball/simulation/mod.rs"]
 #[allow(dead_code, reason = "it writes no files here")]

@@ -1,7 +1,8 @@
-//! The heart of the suite: configurations give the pairs of the plain reference, on every query, at every step.
+//! Every configuration gives the pairs of the plain reference: the heart of the suite.
 //!
-//! Every pair of values of two choices is tried, in few configurations; with `THOROUGH=1` all of them are. Each scene is a
-//! test of its own in either precision, so that two cores have work to the end.
+//! Each configuration is asked every query at every step. Every pair of values of two choices is
+//! tried, in few configurations; with `THOROUGH=1` all configurations are. Each scene is a test of
+//! its own in either precision, so that two cores have work to the end.
 
 use crate::common::{
     CHOICES, Motion, TrianglesOf, covering, covering_configurations, covers_every_pair,
@@ -12,7 +13,7 @@ use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-/// What the reference says of one frame.
+/// Pairs of one frame by the reference: of every two bodies, and of each with itself.
 struct Truth {
     between: Vec<Vec<[u32; 2]>>,
     itself: Vec<Vec<[u32; 2]>>,
@@ -44,7 +45,7 @@ fn truth(bodies: &[Motion], frame: usize) -> Truth {
     Truth { between, itself }
 }
 
-/// Plays all frames in one world and compares every query.
+/// Plays all frames in one world and compares every query with the reference.
 fn check<S: Scalar>(
     options: Options,
     bodies: &[Motion],
@@ -114,7 +115,7 @@ fn check_world<S: Scalar>(world: &mut World<S>, expected: &[Pair]) {
     let first = world.intersections(Selection::World).first().unwrap();
     assert_eq!(first.is_some(), !expected.is_empty());
     assert!(first.is_none_or(|pair| expected.contains(&pair)));
-    // Each body with itself too: the same and no more, in one sorted list.
+    // With each body against itself: the same pairs and these, in one sorted list.
     let mut everything = expected.to_vec();
     for id in world.bodies().collect::<Vec<_>>() {
         let within = world.intersections(Selection::Within(id)).all().unwrap();
@@ -126,7 +127,7 @@ fn check_world<S: Scalar>(world: &mut World<S>, expected: &[Pair]) {
     let first = world.intersections(Selection::Everything).first().unwrap();
     assert_eq!(first.is_some(), !everything.is_empty());
     assert!(first.is_none_or(|pair| everything.contains(&pair)));
-    // A visitor sees each pair once, and stops when it says so.
+    // A visitor sees each pair once, and the visit stops when it says so.
     let mut seen = Vec::new();
     let flow = world.intersections(Selection::World).visit(|pair| {
         seen.push(pair);
@@ -138,7 +139,7 @@ fn check_world<S: Scalar>(world: &mut World<S>, expected: &[Pair]) {
     });
     assert_eq!(seen.len(), expected.len().min(3));
     assert_eq!(flow.unwrap().break_value(), seen.get(2).copied());
-    // A list that is just short enough is made, and one that is not is refused.
+    // A list of exactly the limit is returned, and a longer one is refused.
     let results = [expected.len(), expected.len().saturating_sub(1)].map(|hits| {
         let query = world.intersections(Selection::World).at_most(hits);
         query.all().map(<[_]>::len)
@@ -159,7 +160,8 @@ fn check_all<S: Scalar>(bodies: &[Motion], convert: fn(&[[f32; 3]]) -> Vec<[S; 3
     }
 }
 
-/// Triangle soup over few places: shared, touching, coplanar, repeated and degenerate triangles in plenty.
+/// Triangle soup over few places, with shared, touching, coplanar, repeated and degenerate
+/// triangles.
 fn soup(frames: usize) -> impl Strategy<Value = Motion> {
     (3_u32..20, 1_usize..40, 1_i16..9).prop_flat_map(move |(vertices, triangles, range)| {
         let place = prop::array::uniform3((-range..=range).prop_map(f32::from));
@@ -193,7 +195,7 @@ fn crumpled(frames: usize) -> impl Strategy<Value = Motion> {
 }
 
 proptest! {
-    // Each case is some dozen worlds.
+    // Each case is a few dozen worlds.
     #![proptest_config(ProptestConfig { cases: share(24, 2) as u32, ..ProptestConfig::default() })]
 
     #[test]
@@ -217,7 +219,7 @@ proptest! {
     }
 }
 
-/// Bodies large enough for several levels at every degree, from far apart to deep within each other.
+/// A scene with several levels at every degree, from far apart to deep within each other.
 fn scene(name: &str, triangles: usize, steps: [u32; 3]) -> Vec<Motion> {
     let seed = pliant_scenes::Scene::DEFAULT_SEED;
     let scene = pliant_scenes::Scene::new(name, Some(triangles), seed).unwrap();
@@ -259,10 +261,11 @@ fn cloth_f64() {
 fn every_pair_of_values_is_tried() {
     let chosen = covering(&CHOICES);
     assert!(covers_every_pair(&CHOICES, &chosen));
-    // As many as the two choices with most values have pairs, and few more; and one less does not do.
+    // The two largest choices have 24 pairs of values, the lower bound. One configuration less does
+    // not cover.
     assert!((24..=30).contains(&chosen.len()), "{}", chosen.len());
     assert!(!covers_every_pair(&CHOICES, &chosen[1..]));
-    // Of all there are none is there twice.
+    // In the list of all, no configuration occurs twice.
     let every: BTreeSet<String> = every_configuration()
         .iter()
         .map(|options| format!("{options:?}"))

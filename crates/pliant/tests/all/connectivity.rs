@@ -1,4 +1,5 @@
-//! Mesh connectivity trees: what is below a node is connected, equal, and has a short border; for any mesh.
+//! Mesh connectivity trees: parts are connected, equal in size and have short borders, for any
+//! mesh.
 
 use crate::common::{Lcg, sheet};
 use pliant::{BodyId, Degree, Options, Partition, World};
@@ -15,7 +16,7 @@ fn connectivity(degree: Degree, leaf_size: u32) -> Options {
     options
 }
 
-/// A world of one body, whose shape is none in particular.
+/// A world of one body in a random shape.
 fn world_of(options: Options, triangles: &[[u32; 3]]) -> (World<f32>, BodyId) {
     let vertices = triangles.iter().flatten().max().unwrap() + 1;
     let mut random = Lcg(1);
@@ -27,20 +28,20 @@ fn world_of(options: Options, triangles: &[[u32; 3]]) -> (World<f32>, BodyId) {
     (world, body)
 }
 
-/// The parts of a level.
+/// The part of each triangle at a level.
 fn parts(triangles: &[[u32; 3]], degree: Degree, level: u32) -> Vec<u32> {
     let (world, body) = world_of(connectivity(degree, 8), triangles);
     world.tree_cut(body, level).unwrap()
 }
 
-/// How many triangles the smallest and the largest part have.
+/// Numbers of triangles of the smallest and the largest part.
 fn smallest_and_largest(parts: &[u32]) -> [usize; 2] {
     let mut sizes = vec![0; *parts.iter().max().unwrap() as usize + 1];
     parts.iter().for_each(|&part| sizes[part as usize] += 1);
     [*sizes.iter().min().unwrap(), *sizes.iter().max().unwrap()]
 }
 
-/// How many edges have triangles of different parts.
+/// Number of edges whose triangles are in different parts.
 fn border(triangles: &[[u32; 3]], parts: &[u32]) -> usize {
     let mut edges = BTreeMap::new();
     for (&[a, b, c], &part) in triangles.iter().zip(parts) {
@@ -52,7 +53,7 @@ fn border(triangles: &[[u32; 3]], parts: &[u32]) -> usize {
     edges.values().filter(|around| around.len() > 1).count()
 }
 
-/// Components of some triangles, by comparing each with each.
+/// Connected components of some triangles, by comparing each with each.
 fn components(triangles: &[[u32; 3]], among: &BTreeSet<usize>) -> BTreeSet<BTreeSet<usize>> {
     let share_an_edge = |a: usize, b: usize| {
         let [a, b] = [a, b].map(|triangle| BTreeSet::from(triangles[triangle]));
@@ -75,7 +76,9 @@ fn components(triangles: &[[u32; 3]], among: &BTreeSet<usize>) -> BTreeSet<BTree
     found
 }
 
-/// Every node of every tree: connected, or whole components; what `validate` says too.
+/// Checks every node of every tree: its triangles are connected, or are whole components.
+///
+/// `validate` must agree.
 fn check(triangles: &[[u32; 3]]) -> Result<(), TestCaseError> {
     let of_mesh = components(triangles, &(0..triangles.len()).collect());
     for degree in [Degree::Two, Degree::Four, Degree::Eight] {
@@ -108,13 +111,18 @@ fn check(triangles: &[[u32; 3]]) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// Triangles over few vertices: repeated corners, duplicates, edges with many triangles, points where pieces touch.
+/// Triangles over few vertices, at random.
+///
+/// Corners are repeated, triangles are duplicates, edges have many triangles, and pieces touch in
+/// points.
 fn tangle() -> impl Strategy<Value = Vec<[u32; 3]>> {
     (2_u32..30)
         .prop_flat_map(|vertices| prop::collection::vec(prop::array::uniform3(0..vertices), 1..70))
 }
 
-/// A sheet with holes, and so with pieces that fell off, its triangles in any order, beside a second one.
+/// A sheet with holes beside a second sheet, their triangles shuffled.
+///
+/// Holes leave pieces that are not connected with the rest.
 fn sheets_with_holes() -> impl Strategy<Value = Vec<[u32; 3]>> {
     let side = 2_u32..9;
     (side.clone(), side, 0.0..0.6, any::<u64>()).prop_map(|(first, second, holes, seed)| {
@@ -166,7 +174,7 @@ fn book(count: u32) -> Vec<[u32; 3]> {
     (0..count).map(|i| [0, 1, 2 + i]).collect()
 }
 
-/// Triangles that share nothing.
+/// Triangles that share no vertex.
 fn confetti(count: u32) -> Vec<[u32; 3]> {
     (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()
 }
@@ -224,7 +232,8 @@ fn parts_are_equal_and_borders_short() {
     let sphere = scene("spheres", 20_480);
     let cloth = scene("cloth", 19_602);
     let (strip, fan, book) = (strip(4096), fan(4096), book(4096));
-    // Borders: those of METIS 5.2.1, recursive, are 194, 387, 580 on the sphere and 99, 199, 383 on the cloth.
+    // METIS 5.2.1, recursive, has borders of 194, 387, 580 on the sphere and 99, 199, 383 on the
+    // cloth.
     for (name, mesh, borders) in [
         ("sphere", &sphere, [195, 380, 580]),
         ("cloth", &cloth, [105, 210, 405]),
@@ -256,7 +265,7 @@ fn parts_are_equal_and_borders_short() {
 
 #[test]
 fn small_pieces_are_equal_too() {
-    // 2^11 x 10 triangles: at level 11 of a binary tree all parts could have ten.
+    // 2^11 x 10 triangles: at level 11 of a binary tree all parts could have ten triangles.
     let scene = Scene::new("spheres", Some(20_480), Scene::DEFAULT_SEED).unwrap();
     let (world, body) = world_of(connectivity(Degree::Two, 1), scene.triangles(0));
     let parts = world.tree_cut(body, 11).unwrap();
@@ -280,7 +289,7 @@ fn components_are_dealt_out_whole() {
     assert_eq!(border(&mesh, &parts_at_2), 0, "{parts_at_2:?}");
     assert_eq!(smallest_and_largest(&parts_at_2), [200, 208]);
 
-    // One that is much larger than its share is cut into most of the parts, evenly.
+    // A component much larger than its share is cut into most of the parts, evenly.
     let mesh = [
         shifted(&small, 121),
         shifted(&large, 130),
@@ -292,13 +301,13 @@ fn components_are_dealt_out_whole() {
     let [smallest, largest] = smallest_and_largest(&parts_at_8);
     assert!(smallest >= 16 && largest <= 32, "{smallest} to {largest}");
 
-    // Confetti stays in order.
+    // Triangles that share nothing stay in order.
     assert!(parts(&confetti(64), Degree::Eight, 1).is_sorted());
 }
 
 #[test]
 fn trees_are_shallow_whatever_the_mesh() {
-    // On a stack that any recursion by level or by triangle would leave.
+    // The stack is so small that any recursion by level or by triangle would overflow it.
     let build = || {
         for (name, mesh, depth) in [
             ("strip", strip(20_000), 16),
@@ -361,7 +370,7 @@ fn parts_of_a_level() {
         assert_eq!(above, [0; 128]);
         for level in 1..=shape.depth + 1 {
             let parts = world.tree_cut(body, level).unwrap();
-            // Each is in one part of the level above, in the same order.
+            // Each part lies within one part of the level above, in the same order.
             let mut both: Vec<_> = parts.iter().zip(&above).collect();
             both.sort_unstable();
             both.dedup();

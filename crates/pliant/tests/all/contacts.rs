@@ -1,5 +1,7 @@
-//! How triangles intersect: every configuration gives the kinds of the reference, of all pairs and of one kind alone, and after a cut the
-//! two sides lie on each other without crossing.
+//! Kinds of contact: every configuration gives the kinds of the reference.
+//!
+//! They are asked for all together and one kind alone. After a cut the two sides lie on each other
+//! without crossing.
 
 use crate::common::{covering_configurations, widened, world_of};
 use pliant::{Contact, ContactKind, Scalar, Selection, World, reference};
@@ -13,7 +15,7 @@ const KINDS: [ContactKind; 3] = [
     ContactKind::Crossing,
 ];
 
-/// A square of so many squares on a side, each cut in two, on a plane.
+/// A plane square with this many squares on a side, each cut into two triangles.
 fn grid(squares: u32, at: impl Fn(f32, f32) -> [f32; 3]) -> (Vec<[u32; 3]>, Vec<[f32; 3]>) {
     let across = squares + 1;
     let point = |i: u32| at((i % across) as f32, (i / across) as f32);
@@ -26,7 +28,8 @@ fn grid(squares: u32, at: impl Fn(f32, f32) -> [f32; 3]) -> (Vec<[u32; 3]>, Vec<
     (triangles, (0..across * across).map(point).collect())
 }
 
-/// Grids that lie on each other, stand on each other and go through each other, in places exactly at vertices and edges.
+/// Grids that lie on, stand on and go through each other, with places exactly at vertices and
+/// edges.
 fn grids() -> Vec<(Vec<[u32; 3]>, Vec<[f32; 3]>)> {
     let mut grids = vec![
         grid(5, |x, y| [x, y, 0.0]),
@@ -36,7 +39,7 @@ fn grids() -> Vec<(Vec<[u32; 3]>, Vec<[f32; 3]>)> {
         grid(3, |x, y| [x + 1.0, 2.5, y - 1.0]),
         grid(3, |x, y| [x + 0.5, 1.25 + y / 4.0, y - 1.5]),
     ];
-    // A fold of one surface over itself, and a triangle that is a segment.
+    // A surface folded over itself, and a triangle that is a segment.
     let (mut triangles, positions) = grid(6, |x, y| {
         let x = if x > 3.0 { 6.0 - x } else { x };
         [x - 4.0, y - 3.0, if y > 4.0 { x - 2.0 } else { 0.0 }]
@@ -46,7 +49,7 @@ fn grids() -> Vec<(Vec<[u32; 3]>, Vec<[f32; 3]>)> {
     grids
 }
 
-/// Everything of a world, by the reference.
+/// All contacts of a world, by the reference.
 fn expected<S: Scalar>(bodies: &[(Vec<[u32; 3]>, Vec<[S; 3]>)]) -> Vec<([u32; 4], ContactKind)> {
     let mut all = Vec::new();
     for (a, (triangles_a, positions_a)) in (0..).zip(bodies) {
@@ -75,7 +78,7 @@ fn rows(contacts: &[Contact]) -> Vec<([u32; 4], ContactKind)> {
     contacts.iter().map(row).collect()
 }
 
-/// Compares every way of asking.
+/// Compares every way to ask with the expected contacts.
 fn check<S: Scalar>(world: &mut World<S>, expected: &[([u32; 4], ContactKind)]) {
     let of = Selection::Everything;
     assert_eq!(rows(world.contacts(of).all().unwrap()), expected);
@@ -106,7 +109,7 @@ fn check<S: Scalar>(world: &mut World<S>, expected: &[([u32; 4], ContactKind)]) 
     assert!(refused.is_err());
 }
 
-/// Every configuration that is tried gives what the reference says of the same grids.
+/// Compares every tried configuration with the reference, on the same grids.
 fn check_configurations<S: Scalar>(convert: fn(&[[f32; 3]]) -> Vec<[S; 3]>) {
     let grids = grids().into_iter();
     let grids: Vec<_> = grids.map(|(t, p)| (t, convert(&p))).collect();
@@ -161,7 +164,8 @@ fn what_goes_through_general_positions_crosses() {
 
 #[test]
 fn two_sides_of_a_cut_do_not_cross() {
-    // One surface in two bodies, along the zigzag of its edges: what shares an edge touches, nothing overlaps or crosses.
+    // One surface as two bodies, cut along the zigzag of its edges. Triangles with a common edge
+    // touch; none overlap or cross.
     let (triangles, positions) = grid(8, |x, y| [x, y, (x - 3.0) * (y - 4.0) / 8.0]);
     let (left, right): (Vec<_>, Vec<_>) = triangles.iter().partition(|it| it[0] % 9 < 4);
     let mut world = World::<f32>::new();

@@ -1,5 +1,7 @@
-//! Triangles that are close, and how far bodies are apart: every configuration says what the plain reference does, while bodies move, turn
-//! back, come and go.
+//! Close pairs of triangles, and distances of bodies: every configuration agrees with the
+//! reference.
+//!
+//! Meanwhile bodies move, turn back, come and go.
 
 use crate::common::{Lcg, every_configuration, is_thorough, share, sheet};
 use pliant::{
@@ -8,14 +10,14 @@ use pliant::{
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
-/// What a test knows of a body.
+/// The test's own copy of a body.
 struct Known<S> {
     id: BodyId,
     triangles: Vec<[u32; 3]>,
     positions: Vec<[S; 3]>,
 }
 
-/// The pairs of two bodies that are so close, as the reference says; those of one body with itself.
+/// Pairs of triangles within a distance, of two bodies or of one with itself, by the reference.
 fn expected<S: Scalar>(a: &Known<S>, b: &Known<S>, distance: f64) -> Vec<Pair> {
     let pairs = if a.id == b.id {
         reference::self_close_triangle_pairs(&a.triangles, &a.positions, distance)
@@ -32,7 +34,7 @@ fn expected<S: Scalar>(a: &Known<S>, b: &Known<S>, distance: f64) -> Vec<Pair> {
     pairs.unwrap().into_iter().map(pair).collect()
 }
 
-/// The list; *first* and *visit_some* agree with it.
+/// The list of all close pairs; asserts that *first* and *visit_some* agree with it.
 fn ask<S: Scalar>(world: &mut World<S>, of: Selection, distance: f64) -> Vec<CloseTriangles> {
     let all = world
         .close_triangle_pairs(of, distance)
@@ -65,7 +67,7 @@ fn ask<S: Scalar>(world: &mut World<S>, of: Selection, distance: f64) -> Vec<Clo
     all
 }
 
-/// Figures of a pair belong together.
+/// Checks that the figures of a pair agree with each other.
 fn check_figures<S: Scalar>(close: &CloseTriangles, bodies: &[Known<S>]) {
     let mut points = [[0.0; 3]; 2];
     for (point, (body, triangle, counts)) in points.iter_mut().zip([
@@ -98,7 +100,7 @@ fn check_figures<S: Scalar>(close: &CloseTriangles, bodies: &[Known<S>]) {
     assert_eq!(close.direction.is_none(), close.distance == 0.0);
 }
 
-/// What is promised of a distance: nothing is nearer, and something is as near.
+/// Checks the promise of a distance: nothing is nearer, and something is as near.
 fn check_distance<S: Scalar>(
     found: Option<CloseTriangles>,
     of: [&Known<S>; 2],
@@ -125,7 +127,7 @@ fn check_distance<S: Scalar>(
     }
 }
 
-/// A rough sheet, a degenerate one among them, somewhere.
+/// A sheet at a random place, between flat and very rough.
 fn shape<S: Scalar>(random: &mut Lcg, flat: &[[f32; 3]], of: fn(f64) -> S) -> Vec<[S; 3]> {
     let at: [f64; 3] = std::array::from_fn(|_| 0.7 * f64::from(random.below(4)));
     let rough = f64::from(random.below(3)) * 0.3;
@@ -138,7 +140,7 @@ fn shape<S: Scalar>(random: &mut Lcg, flat: &[[f32; 3]], of: fn(f64) -> S) -> Ve
         .collect()
 }
 
-/// The nearest body is the one whose distance is the least.
+/// Checks that the nearest body is the one at the least distance.
 fn check_nearest<S: Scalar>(world: &mut World<S>, bodies: &[Known<S>]) {
     let id = bodies[0].id;
     let [mut least, mut to] = [f64::INFINITY, 0.0];
@@ -317,17 +319,19 @@ fn filters_are_for_the_nearest_body_only() {
     assert!(world.nearest_body(a, 9.0).unwrap().is_none());
 }
 
-/// Three vertices that are on this side of the plane x + 2 y + 2 z = u, the first at 0, where u is the smallest number; and a triangle in that
-/// plane over 0, which is u / 3 from it. In units of u.
+/// Corners of a triangle on one side of the plane x + 2 y + 2 z = u, the first of them at 0.
+///
+/// The unit is u, the smallest positive number.
 const CORNER: [[f64; 3]; 3] = [[0.0; 3], [-9.0, 0.0, 0.0], [0.0, -9.0, 0.0]];
+/// Corners of a triangle in that plane over 0, at a distance of u / 3.
 const OVER_IT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]];
 
-/// What is nearer than the smallest number there is, and does not touch, is not said to touch.
+/// Only triangles that touch have distance 0, even if a distance is below the smallest number.
 #[test]
 fn only_what_touches_is_at_distance_0() {
     let u = f64::from_bits(1);
     let at = |all: [[f64; 3]; 3], by: f64| all.map(|it| it.map(|x| x * by));
-    // A third of u, 2 / 3 of it, and 4 / 3 and 5 / 3; and beyond the normal range, where nothing is rounded to so few digits.
+    // A third of u, two, four and five thirds; and a size at which results are not subnormal.
     for (by, told) in [
         (1.0, u),
         (2.0, u),
@@ -356,7 +360,7 @@ fn only_what_touches_is_at_distance_0() {
         assert!(close.is_some_and(|it| is_told(it.distance) && it.direction.is_some()));
         let close = world.close_triangle_pairs(of, 1.0).all().unwrap();
         assert!(close.len() == 1 && is_told(close[0].distance));
-        // Whether they are as near as some number is of the exact distance, whatever number is told.
+        // A limit is compared with the exact distance, whatever number is returned.
         assert!(
             world
                 .close_triangle_pairs(of, 0.0)
@@ -371,7 +375,7 @@ fn only_what_touches_is_at_distance_0() {
             by <= 3.0
         );
 
-        // One that touches is the nearest, though another was found first.
+        // A body that touches is the nearest, though another was found first.
         let nearest = world.nearest_body(corner, 1.0).unwrap().unwrap();
         assert_eq!(nearest.pair.body_b, over_it);
         let touching = at([[0.0; 3], [-9.0, 0.0, 0.0], [0.0, 0.0, -9.0]], by * u);

@@ -1,4 +1,6 @@
-//! Edits of meshes: after every one, a world gives the answers of a world built fresh from what is left, by the numbers that stayed.
+//! Edited worlds answer as worlds built fresh from what is left, by the numbers that stayed.
+//!
+//! The two are compared after every edit.
 
 use crate::common::{Lcg, every_configuration, share, sheet};
 use pliant::{
@@ -6,7 +8,7 @@ use pliant::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What a test knows of a body, empty numbers as none.
+/// The test's own copy of a body; numbers that are empty are `None`.
 #[derive(Clone, Debug)]
 struct Known<S> {
     id: BodyId,
@@ -16,12 +18,13 @@ struct Known<S> {
     end: Option<Vec<[S; 3]>>,
     /// The number of every edge, once it was asked for.
     edges: BTreeMap<[u32; 2], u32>,
-    /// Vertices that an edit has placed, and those of them that have had no triangle since.
+    /// Vertices that an edit has placed.
     placed: BTreeSet<u32>,
+    /// Placed vertices that have had no triangle since.
     alone: BTreeSet<u32>,
 }
 
-/// A body without empty numbers, and what it calls things.
+/// A body without empty numbers, and the numbers that its elements have in the edited body.
 struct Compact<S> {
     triangles: Vec<[u32; 3]>,
     positions: Vec<[S; 3]>,
@@ -69,7 +72,7 @@ impl<S: Number> Known<S> {
         }
     }
 
-    /// The positions as a caller gives them: what is in the rows of empty vertices does not matter.
+    /// Positions as a caller gives them; rows of empty vertices hold anything, NaN included.
     fn rows(&self, random: &mut Lcg) -> Vec<[S; 3]> {
         let nowhere = [f64::NAN, f64::INFINITY, 3.0][random.below(3) as usize];
         let nowhere = [S::of(nowhere); 3];
@@ -94,7 +97,7 @@ impl<S: Number> Known<S> {
     }
 }
 
-/// Coordinates that can be made of others.
+/// Scalars that can be made from `f64`.
 trait Number: Scalar {
     fn of(x: f64) -> Self;
 }
@@ -111,7 +114,7 @@ impl Number for f64 {
     }
 }
 
-/// All that is asked of a world, as the test numbers things; edges by their ends.
+/// All answers of a world, in the test's own numbers, with edges as their ends.
 #[derive(Debug, Default, PartialEq)]
 struct Answers {
     intersections: BTreeSet<[u32; 4]>,
@@ -125,7 +128,7 @@ struct Answers {
 }
 
 impl Answers {
-    /// Says what is there that should not be, or the other way round.
+    /// Fails with the hits that are missing and the hits that are too many.
     fn assert_are(&self, all: &Self) {
         macro_rules! compare {
             ($($list:ident),*) => {$(
@@ -133,7 +136,11 @@ impl Answers {
                 let missing = expected.iter().filter(|it| !found.iter().any(|other| other == *it));
                 let more = found.iter().filter(|it| !expected.iter().any(|other| other == *it));
                 let differences = (missing.collect::<Vec<_>>(), more.collect::<Vec<_>>());
-                assert!(found == expected, "{}: missing, and too many: {differences:?}", stringify!($list));
+                assert!(
+                    found == expected,
+                    "{}: missing, and too many: {differences:?}",
+                    stringify!($list)
+                );
             )*};
         }
         compare!(
@@ -149,7 +156,7 @@ impl Answers {
     }
 }
 
-/// Asks a world everything. A body of it calls its triangles and vertices as `names` says.
+/// Asks a world everything, and translates the numbers of its bodies by `names`.
 fn ask<S: Number>(
     world: &mut World<S>,
     names: &dyn Fn(BodyId, Name) -> u32,
@@ -231,7 +238,7 @@ fn ask<S: Number>(
     answers
 }
 
-/// A number that a body of a world gives.
+/// A number of a triangle or vertex as a body of a world gives it.
 enum Name {
     Triangle(u32),
     Vertex(u32),
@@ -266,7 +273,7 @@ fn check<S: Number>(world: &mut World<S>, known: &mut [Known<S>], options: Optio
             }
         }
         assert_eq!(world.vertex_groups(id).unwrap(), body.groups);
-        // Every edge that there is has a number, those that stay the one that they had.
+        // Every edge that exists has a number, and an edge that stays has kept its number.
         let edges = (0..).zip(world.edges(id).unwrap());
         let numbers = edges.filter(|(_, ends)| **ends != [u32::MAX; 2]);
         let numbers: BTreeMap<[u32; 2], u32> = numbers.map(|(at, &ends)| (ends, at)).collect();
@@ -309,7 +316,7 @@ fn check<S: Number>(world: &mut World<S>, known: &mut [Known<S>], options: Optio
     }
 }
 
-/// A step of an edit, made both to the edit and to what is known.
+/// Makes one random step, both in the edit and in the test's own copy.
 fn step<S: Number>(edit: &mut Edit<S>, known: &mut Known<S>, random: &mut Lcg) {
     let mut alone = std::mem::take(&mut known.alone);
     alone.retain(|&vertex| !known.is_used(vertex));
@@ -333,7 +340,7 @@ fn step<S: Number>(edit: &mut Edit<S>, known: &mut Known<S>, random: &mut Lcg) {
             known.triangles[triangle as usize] = None;
         }
         1 => {
-            // A triangle in three.
+            // One triangle becomes three.
             let triangle = some(random);
             let [a, b, c] = known.triangles[triangle as usize].unwrap();
             let position = position(random);
@@ -349,7 +356,7 @@ fn step<S: Number>(edit: &mut Edit<S>, known: &mut Known<S>, random: &mut Lcg) {
             known.triangles.extend(corners.map(Some));
         }
         2 | 3 => {
-            // A vertex that some of its triangles leave.
+            // A vertex is split: some of its triangles get another.
             let triangle = some(random);
             let vertex = known.triangles[triangle as usize].unwrap()[random.below(3) as usize];
             let of_vertex = |&at: &u32| known.triangles[at as usize].unwrap().contains(&vertex);
@@ -415,7 +422,9 @@ fn step<S: Number>(edit: &mut Edit<S>, known: &mut Known<S>, random: &mut Lcg) {
     }
 }
 
-/// What an edit comes to, from the mesh before and after its steps: vertices that no triangle has any more are empty.
+/// The result of an edit, from the mesh before and after its steps.
+///
+/// Vertices that lost their last triangle are empty afterwards.
 fn finish<S: Number>(before: &Known<S>, known: &mut Known<S>) -> Edited {
     for vertex in 0..known.positions.len() as u32 {
         let was_used = before.is_used(vertex) && !known.alone.contains(&vertex);
@@ -457,7 +466,7 @@ fn finish<S: Number>(before: &Known<S>, known: &mut Known<S>) -> Edited {
     edited
 }
 
-/// Gives a body another mesh: that which it has without empty numbers, and somewhat different.
+/// Gives a body a slightly different mesh without empty numbers.
 fn other_mesh<S: Number>(world: &mut World<S>, known: &mut Known<S>, random: &mut Lcg) {
     let id = known.id;
     let compact = known.compact();
@@ -495,7 +504,7 @@ fn other_mesh<S: Number>(world: &mut World<S>, known: &mut Known<S>, random: &mu
     *known = new;
 }
 
-/// A life of a world of two bodies that are edited again and again; returns how many edits there were.
+/// Life of a world of two bodies that are edited again and again. Returns the number of edits.
 fn life<S: Number>(options: Options, seed: u64, edits: usize) -> usize {
     let mut random = Lcg(seed);
     let mut world = World::<S>::with_options(options);
@@ -589,7 +598,7 @@ fn edited_worlds_equal_fresh_ones() {
     println!("{done} edits");
 }
 
-/// Vertices may be there from the beginning on, and have no triangle until an edit gives them one.
+/// Vertices without a triangle may exist from the start, until an edit gives them one.
 #[test]
 fn a_triangle_of_vertices_that_none_had_is_met() {
     let far = [
@@ -615,7 +624,7 @@ fn a_triangle_of_vertices_that_none_had_is_met() {
     }
 }
 
-/// A mesh that is set has no empty number, be it the one that an edit left.
+/// A mesh that is set has no empty number, even if it is the mesh that an edit left.
 #[test]
 fn a_mesh_that_is_set_has_all_its_vertices() {
     let shape = [
@@ -637,7 +646,7 @@ fn a_mesh_that_is_set_has_all_its_vertices() {
     world.set_mesh(body, &[[0, 1, 2]], &shape).unwrap();
     assert_eq!(world.live_vertices(body).unwrap(), [true; 5]);
     assert_eq!(world.positions(body).unwrap()[3], [5.0; 3]);
-    // A triangle that is given back its corners.
+    // A triangle comes and goes, and the mesh is set to the one that is left.
     let mut edit = world.edit(body).unwrap();
     let added = edit.add_triangle([0, 1, 4]);
     world.apply(&edit).unwrap();
@@ -649,7 +658,7 @@ fn a_mesh_that_is_set_has_all_its_vertices() {
     world.validate().unwrap();
 }
 
-/// Boxes of a motion that an edit ended are not taken for those of the next.
+/// Boxes of a motion that an edit ended are not taken for boxes of the next motion.
 #[test]
 fn the_motion_after_an_edit_is_another() {
     let shape = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
@@ -680,7 +689,7 @@ fn the_motion_after_an_edit_is_another() {
     }
 }
 
-/// Takes out, tears off, adds: what gives edges that come and go.
+/// Removes, splits or adds at random, so that edges come and go.
 fn some_edit(world: &mut World<f32>, body: BodyId, random: &mut Lcg) {
     let live = world.live_triangles(body).unwrap();
     let live: Vec<u32> = (0..).zip(live).filter(|it| it.1).map(|it| it.0).collect();
@@ -699,8 +708,10 @@ fn some_edit(world: &mut World<f32>, body: BodyId, random: &mut Lcg) {
     world.apply(&edit).unwrap();
 }
 
-/// Once somebody has asked for them, edges keep their numbers, whether a world was copied since, its trees were built anew or mended
-/// themselves, or it was written down and read.
+/// Edges keep their numbers once somebody has asked for them.
+///
+/// A world may be copied, its trees may be built anew or mend themselves, and it may be written
+/// down and read.
 #[test]
 fn numbers_of_edges_stay_in_copies_and_whatever_becomes_of_trees() {
     let (triangles, positions) = sheet(8);
@@ -736,7 +747,7 @@ fn numbers_of_edges_stay_in_copies_and_whatever_becomes_of_trees() {
     }
 }
 
-/// Numbers that were written down make another world answer with the same rows, now and after more edits.
+/// Edge numbers that were written down give another world the same rows, now and after more edits.
 #[test]
 fn numbers_of_edges_are_taken_over() {
     let (triangles, positions) = sheet(6);
@@ -752,7 +763,7 @@ fn numbers_of_edges_are_taken_over() {
         let numbers = world.numbered_edges(body).unwrap().unwrap().to_vec();
         assert_eq!(numbers, world.edges(body).unwrap());
 
-        // As it is read: the triangles with whatever in the place of those that are not there, which goes again.
+        // As a reader does it: empty triangles get any corners, and are removed again.
         let (now, mut rows) = (
             world.triangles(body).unwrap(),
             world.positions(body).unwrap(),
@@ -779,7 +790,7 @@ fn numbers_of_edges_are_taken_over() {
         }
         other.apply(&edit).unwrap();
 
-        // Others are refused, and so are numbers for edges that have some.
+        // Other numbers are refused, and so are numbers for edges that already have some.
         let first = numbers.iter().position(|it| *it != [u32::MAX; 2]).unwrap();
         let mut another = numbers.clone();
         another[first] = [0, 0];

@@ -1,26 +1,28 @@
-//! An edit that is refused, whatever was right before, leaves everything: numbers, edges, groups, shape, motion, and what is found.
+//! A refused edit changes nothing: numbers, edges, groups, shape, motion, and what is found.
+//!
+//! That holds whatever good steps the edit had before the bad one.
 
 use crate::common::sheet;
 use pliant::{BodyId, EdgeEdge, Edit, ErrorKind as Kind, Selection, World};
 
-/// A body whose vertex 0 and the triangles at it are empty.
+/// A body in which vertex 0 and its triangles are empty.
 struct Edited {
     world: World<f32>,
     body: BodyId,
     vertices: usize,
-    /// The numbers that are those of triangles, and one that is empty.
+    /// Numbers of triangles that exist, and one number that is empty.
     live: Vec<u32>,
     empty: u32,
 }
 
-/// All that an edit that is refused leaves as it was.
+/// Everything that a refused edit must leave as it was.
 #[derive(Clone, Debug, PartialEq)]
 struct State {
     triangles: Vec<[u32; 3]>,
     edges: Vec<[u32; 2]>,
     live_vertices: Vec<bool>,
     groups: Vec<u32>,
-    /// But for vertex 0.
+    /// Positions at the end of the motion, without vertex 0, which is empty.
     end: Vec<[f32; 3]>,
     revision: u64,
     near: Vec<EdgeEdge>,
@@ -70,7 +72,7 @@ impl Edited {
         }
     }
 
-    /// Steps are refused, and so they are behind others that are good.
+    /// Asserts that these steps are refused, alone and behind good ones, and that nothing changed.
     fn refuses(&mut self, expected: &Kind, steps: impl Fn(&mut Edit<f32>)) {
         let before = self.state();
         let first = self.live[0];
@@ -84,7 +86,7 @@ impl Edited {
             steps(&mut edit);
             let refused = self.world.apply(&edit).unwrap_err();
             assert_eq!(refused.body, Some(self.body), "{expected:?}");
-            // As text, for NaN does not equal itself.
+            // Compared as text, since NaN does not equal itself.
             assert_eq!(format!("{:?}", refused.kind), format!("{expected:?}"));
             assert!(refused.to_string().len() > 20);
         }
@@ -211,7 +213,7 @@ fn edits_of_another_mesh_or_of_nobody() {
     world.set_mesh(body, &triangles[1..], &positions).unwrap();
     let refused = world.apply(&early).unwrap_err().kind;
     assert_eq!(refused, Kind::OutdatedEdit);
-    // Another tree of the same mesh is no reason.
+    // Another tree of the same mesh is no reason to refuse an edit.
     let mut edit = world.edit(body).unwrap();
     edit.remove_triangle(0);
     world.rebuild(body).unwrap();
@@ -226,7 +228,7 @@ fn edits_of_another_mesh_or_of_nobody() {
     }
 }
 
-/// An edit is of the world that began it, whatever other worlds call things, those that were made from it too.
+/// An edit belongs to the world that began it, and to no other, its clones included.
 #[test]
 fn edits_of_another_world() {
     let (triangles, positions) = sheet(4);
@@ -255,7 +257,8 @@ fn edits_of_another_world() {
     assert_eq!(world.apply(&edit).unwrap().removed_triangles, [0]);
 }
 
-/// Every step that names what an earlier step of the same edit has emptied is refused, or does what it says.
+/// A step that names what an earlier step of the same edit has emptied is refused, or does what it
+/// says.
 #[test]
 fn what_an_earlier_step_has_emptied() {
     let mut edited = Edited::new();
@@ -279,7 +282,7 @@ fn what_an_earlier_step_has_emptied() {
             step(edit);
         });
     }
-    // One that lost its last triangle is empty at the end, and can have others until then.
+    // A vertex that lost its last triangle is empty only at the end, and can get others until then.
     let used = Kind::VertexInUse { vertex: 1 };
     let triangles = edited.world.triangles(edited.body).unwrap().to_vec();
     let at_1 = (0..).zip(&triangles).filter(|(_, it)| it.contains(&1));
@@ -314,7 +317,8 @@ fn what_an_earlier_step_has_emptied() {
     });
 }
 
-/// A vertex that was merged away and then placed is where it was placed, be it alone or with a triangle.
+/// A vertex that was merged away and then placed is where it was placed, with or without a
+/// triangle.
 #[test]
 fn a_vertex_is_placed_after_it_was_merged_away() {
     for with_triangle in [false, true] {
@@ -340,7 +344,7 @@ fn a_vertex_is_placed_after_it_was_merged_away() {
         assert_eq!(world.positions(body).unwrap()[gone as usize], at);
         assert_eq!(world.vertex_groups(body).unwrap()[gone as usize], 0);
         world.validate().unwrap();
-        // It can be used by the next edit, and goes with its last triangle.
+        // The next edit can use it, and it goes with its last triangle.
         let mut edit = world.edit(body).unwrap();
         let added = edit.add_triangle([kept, gone, other]);
         world.apply(&edit).unwrap();
@@ -359,7 +363,7 @@ fn a_vertex_is_placed_after_it_was_merged_away() {
             (vec![], vec![])
         );
         assert!(!world.live_vertices(body).unwrap()[gone as usize]);
-        // With a triangle in between that goes again, it goes with that.
+        // With a triangle in between that is removed again, it goes with the triangle.
         let mut edit = world.edit(body).unwrap();
         edit.merge_vertices(kept, other);
         edit.place_vertex(other, at);
@@ -370,7 +374,9 @@ fn a_vertex_is_placed_after_it_was_merged_away() {
     }
 }
 
-/// The group of a vertex is that which the one had that it was split from, whatever becomes of that one's number later.
+/// A vertex inherits the group of the vertex that it was split from.
+///
+/// That holds whatever becomes of the other's number later.
 #[test]
 fn a_group_outlives_the_number_that_it_was_taken_from() {
     let mut edited = Edited::new();
@@ -397,7 +403,9 @@ fn a_group_outlives_the_number_that_it_was_taken_from() {
     world.validate().unwrap();
 }
 
-/// Where a vertex was that an edit has emptied is nothing to a loose box, at the start of a motion and at its end.
+/// A loose box does not have to hold vertices that an edit has emptied.
+///
+/// They count neither at the start of a motion nor at its end.
 #[test]
 fn a_loose_box_is_round_what_is_there() {
     let far = [9.0, 9.0, 9.0];
@@ -422,7 +430,7 @@ fn a_loose_box_is_round_what_is_there() {
     let mut edit = world.edit(body).unwrap();
     edit.remove_triangle(1);
     world.apply(&edit).unwrap();
-    // A vertex that no triangle had is there, and where it is counts.
+    // A vertex without a triangle that no edit has emptied exists, and its position counts.
     assert_eq!(outside(&mut world), Some((4, [7.0, 0.0, 0.0])));
     let mut edit = world.edit(body).unwrap();
     edit.merge_vertices(0, 4);
@@ -434,7 +442,7 @@ fn a_loose_box_is_round_what_is_there() {
     let higher = shape.map(|[x, y, z]| [x, y, z + 2.5]);
     world.set_motion(body, &higher).unwrap();
     assert_eq!(outside(&mut world), Some((0, [0.0, 0.0, 2.5])));
-    // A body that was fused, or copied, has none of it either.
+    // Nor do they count at rest or in a clone.
     world.finish_motion();
     world.set_positions(body, &shape).unwrap();
     assert_eq!(outside(&mut world), None);
@@ -447,7 +455,7 @@ fn a_loose_box_is_round_what_is_there() {
     ));
 }
 
-/// A vertex that goes and comes again within one edit is a new one; one that comes and goes was never there.
+/// A vertex that goes and comes again within one edit is new; one that comes and goes never was.
 #[test]
 fn within_one_edit_numbers_go_and_come() {
     let mut edited = Edited::new();
@@ -466,7 +474,7 @@ fn within_one_edit_numbers_go_and_come() {
     assert!(!world.live_triangles(*body).unwrap()[added as usize]);
     world.validate().unwrap();
 
-    // One that comes, goes and comes again comes once.
+    // A vertex that comes, goes and comes again comes once.
     let before = world.vertex_count(*body).unwrap();
     world.set_vertex_groups(*body, &vec![7; before]).unwrap();
     let mut edit = world.edit(*body).unwrap();

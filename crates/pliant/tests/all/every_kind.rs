@@ -1,6 +1,7 @@
-//! Every kind that the registry lists, without a word about any: lists are the same in every
-//! configuration, for one thread and several, in a world with a history and in a fresh one; what is
-//! first and what is visited is in them; and what must be refused is.
+//! Every kind of query in the registry, tested without knowing any of them.
+//!
+//! Lists are the same in every configuration, on one thread and several, in a world with a history
+//! and in a fresh one. First hits and visited hits are in the lists. Bad questions are refused.
 
 use crate::common::covering_configurations;
 use crate::common::kinds::{AnyKind, Wanted, every_kind};
@@ -10,16 +11,16 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-/// A margin and a distance.
+/// The margin and distance of all questions.
 const LENGTH: f64 = 1.0 / 128.0;
 
-/// The part of the way to the next step on which things meet.
+/// The end of every motion, as a part of the way to the next step.
 const PART: f32 = 1.0 / 16.0;
 
-/// All bodies at one step.
+/// The positions of all bodies at one step.
 type Shapes<S> = Vec<Vec<[S; 3]>>;
 
-/// The shapes of a scene at some steps, and for each where it is going.
+/// The shapes of a scene at some steps, and for each the shapes at the end of its motion.
 fn steps<S>(scene: &Scene, steps: &[u32], of: fn(f32) -> S) -> Vec<[Shapes<S>; 2]> {
     let at = |step: u32| -> Shapes<f32> {
         let mut shapes = vec![Vec::new(); scene.body_count()];
@@ -55,7 +56,7 @@ fn world_of<S: Scalar>(
     (world, ids)
 }
 
-/// Sends bodies on their way: all of them, or the first alone, so that the others stand still.
+/// Sets the motion of all bodies, or of the first alone, so that the others stand still.
 fn set_motions<S: Scalar>(world: &mut World<S>, ids: &[BodyId], ends: &Shapes<S>, all: bool) {
     let count = if all { ids.len() } else { 1 };
     for (&id, end) in ids.iter().zip(ends).take(count) {
@@ -63,7 +64,7 @@ fn set_motions<S: Scalar>(world: &mut World<S>, ids: &[BodyId], ends: &Shapes<S>
     }
 }
 
-/// Every list of every kind.
+/// Lists of every kind, as text.
 fn lists<S: Scalar>(
     kinds: &[AnyKind<S>],
     world: &mut World<S>,
@@ -113,7 +114,7 @@ fn check<S: Scalar>(scene: &Scene, at: &[u32], of: fn(f32) -> S) {
                     let expected = expected.next().unwrap();
                     let what = || format!("{} of {of:?}, step {step}, {options:?}", kind.name);
                     let of = (of, LENGTH);
-                    // Some boxes are made before, and some orders of questions differ.
+                    // Some boxes are made before, and the order of the four ways differs.
                     let mut wanted = [Wanted::First, Wanted::Prepare, Wanted::Visit, Wanted::All];
                     wanted.rotate_left((number + step) % 4);
                     for wanted in wanted {

@@ -1,5 +1,7 @@
-//! Figure 2 of the paper: a binary tree of 31 nodes, levels 0 to 2 made bottom-up, and of the rest only what is reached:
-//! "There are 31 nodes in this small example tree, but only 11 of them are updated."
+//! Figure 2 of the paper: in a binary tree of 31 nodes, only 11 boxes are updated.
+//!
+//! Levels 0 to 2 are made bottom-up, and of the rest only what is reached. "There are 31 nodes in
+//! this small example tree, but only 11 of them are updated."
 
 use crate::common::TrianglesOf;
 use pliant::{Degree, Options, Selection, TreeShape, World};
@@ -44,7 +46,7 @@ fn eleven_of_31_boxes() {
     let statistics = *world.statistics();
     // n = 4, so levels 0, 1, 2 at once: 1 + 2 + 4 boxes; and the one box of the needle.
     assert_eq!(statistics.boxes_bottom_up, 7 + 1);
-    // Then the two children of the node reached at level 2, and the two children of one of those.
+    // Then the two children of the node reached at level 2, and the two children of one of them.
     assert_eq!(statistics.boxes_top_down, 4);
 
     // A second query without movement makes nothing.

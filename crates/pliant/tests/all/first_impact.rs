@@ -1,4 +1,4 @@
-//! The first of impacts is the exactly earliest, of several at one time the first in order; and the step that goes by it is long enough.
+//! The first impact is the exactly earliest, ties are broken by order, and free steps are long.
 
 use crate::common::{Lcg, sheet};
 use crate::impacts::{Known, Lists};
@@ -8,7 +8,7 @@ use std::num::{NonZeroU32, NonZeroUsize};
 
 const ALL: Selection = Selection::Everything;
 
-/// Degrees and leaf sizes, one thread and three in turns.
+/// Configurations of all degrees and several leaf sizes, with one thread and three in turns.
 fn configurations() -> impl Iterator<Item = Options> {
     let degrees = [Degree::Two, Degree::Four, Degree::Eight];
     let all = degrees
@@ -23,7 +23,7 @@ fn configurations() -> impl Iterator<Item = Options> {
     })
 }
 
-/// The corners of two elements that meet, at the start and at the end.
+/// Elements of an impact as the oracle takes them: their corners at the start and at the end.
 fn motion_of<S: Scalar>(
     world: &World<S>,
     known: &[Known<S>],
@@ -64,7 +64,7 @@ fn motion_of<S: Scalar>(
     )
 }
 
-/// The first of all, by the reference and exact times of the oracle.
+/// The first of all impacts, by the reference's lists and the oracle's exact times.
 fn first_of_all<S: Scalar>(world: &World<S>, known: &[Known<S>]) -> Option<(Impact, FirstContact)> {
     let lists = Lists::of_all(known, 0.0).sorted();
     let vertices = lists
@@ -88,7 +88,7 @@ fn first_of_all<S: Scalar>(world: &World<S>, known: &[Known<S>]) -> Option<(Impa
     })
 }
 
-/// Which elements an impact is of.
+/// The elements of an impact: whether they are edges, and their numbers.
 fn pair_of(impact: Impact) -> (bool, [u32; 4]) {
     match impact {
         Impact::VertexTriangle(impact) => (false, impact.pair.into()),
@@ -96,7 +96,9 @@ fn pair_of(impact: Impact) -> (bool, [u32; 4]) {
     }
 }
 
-/// Compares the first of every configuration, kind and width with the exactly earliest; the step is at least 0.9 of its time.
+/// Compares the first impact of every configuration, kind and width with the exactly earliest.
+///
+/// The free step is at least 0.9 of its time.
 fn check<S: Scalar>(bodies: &[(Vec<[u32; 3]>, Vec<[S; 3]>, Vec<[S; 3]>)], what: &str) -> f64 {
     let mut time = 1.0;
     let mut expected = None;
@@ -145,7 +147,9 @@ fn check<S: Scalar>(bodies: &[(Vec<[u32; 3]>, Vec<[S; 3]>, Vec<[S; 3]>)], what: 
     time
 }
 
-/// A triangle opens while it falls, and its inside meets a vertex at exactly d; its determinant has a double root besides.
+/// A triangle that opens while it falls, so that its inside meets a vertex exactly at d.
+///
+/// Its determinant has a double root besides.
 fn opening(d: f64) -> [[[f64; 3]; 3]; 2] {
     let start = [[d, 0.0, 0.0], [0.0, d, 0.0], [-d, -d, -d]];
     let by = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, -1.0, 1.0]];
@@ -198,7 +202,9 @@ fn of_equal_triangles_the_first_is_named() {
     }
 }
 
-/// Small scenes side by side, each with a contact at a time that is known: equal times, times in one cell, and times far apart.
+/// Small scenes side by side, each with a contact at a known time.
+///
+/// Times are equal, in one cell of the search, or far apart.
 fn planted(seed: u32) -> Vec<(Vec<[u32; 3]>, Vec<[f64; 3]>, Vec<[f64; 3]>)> {
     let mut random = Lcg(u64::from(seed));
     let exponent = 4 + random.below(12) as i32;
@@ -213,7 +219,7 @@ fn planted(seed: u32) -> Vec<(Vec<[u32; 3]>, Vec<[f64; 3]>, Vec<[f64; 3]>)> {
         to.extend(end);
     };
     for place in 0..6 + random.below(12) {
-        // All exact: times are multiples of 2^-45.
+        // All of this is exact: times are multiples of 2^-45.
         let time = match random.below(5) {
             0 | 1 => earliest,
             2 => earliest + f64::from(random.below(4)) * 2f64.powi(-45),
@@ -249,7 +255,7 @@ fn planted(seed: u32) -> Vec<(Vec<[u32; 3]>, Vec<[f64; 3]>, Vec<[f64; 3]>)> {
         }
     }
     bodies.retain(|(triangles, ..)| !triangles.is_empty());
-    // The order in which triangles lie in space is not that of their numbers.
+    // Numbers of triangles are shuffled, so that their order is not the order in space.
     for (triangles, ..) in &mut bodies {
         for from in (1..triangles.len()).rev() {
             triangles.swap(from, random.below(from as u32 + 1) as usize);
@@ -265,7 +271,9 @@ fn the_first_is_the_exactly_earliest_wherever_others_are() {
     }
 }
 
-/// A sheet is turned inside out through a plane, in which nearly all of it meets at one time; or nearly, where it was turned.
+/// A sheet turned inside out through a plane, where nearly all of it meets at one time.
+///
+/// Rotated, it meets at nearly one time. Neither is listed nor timed as a whole.
 #[test]
 fn what_meets_all_at_once_is_neither_listed_nor_timed() {
     let side = 12;
@@ -306,7 +314,8 @@ fn what_meets_all_at_once_is_neither_listed_nor_timed() {
         assert_eq!(pair_of(first), pair_of(expected));
         let step = world.collision_free_step(ALL, 0.0).unwrap();
         assert!(time.compare(step).is_gt() && step >= 0.9 * first.low());
-        // Few were the earliest for a while, of thousands that met then; and as much memory is held as where nothing meets.
+        // Few were the earliest for a while, of the thousands that met then. About as much memory
+        // is held as where nothing meets.
         let edges = world.edge_edge_impacts(ALL).all().unwrap();
         let as_early = edges.iter().filter(|it| it.high == first.high()).count();
         let apart = |[x, y, z]: [f64; 3]| [by * x, y, z + 100.0 * x];
@@ -323,15 +332,18 @@ fn what_meets_all_at_once_is_neither_listed_nor_timed() {
 
 type Corner = [f64; 3];
 
-/// The sum of three corners, each so many times.
+/// Weighted sum of three corners.
 fn sum_of(corners: [Corner; 3], times: [f64; 3]) -> Corner {
     [0, 1, 2].map(|i: usize| (0..3).map(|k| times[k] * corners[k][i]).sum())
 }
 
-/// Beside a contact at a time that is known, a vertex goes along with a triangle that turns, so many units in the last place of the largest
-/// coordinate from its plane. Returns the least distance up to that time, in units, and the part of the time that is a free step.
+/// The free step beside a vertex that follows a turning triangle at a small distance.
+///
+/// The vertex is `units` units in the last place of the largest coordinate away from the triangle's
+/// plane. A contact elsewhere at a known time bounds the step. Returns the least distance up to
+/// that time, in units, and the step as a part of that time.
 fn beside(random: &mut Lcg, units: f64) -> (f64, f64) {
-    // Coordinates are from 2^10 to 2^11: a unit is 2^-42. All that is said of them here is exact.
+    // Coordinates are from 2^10 to 2^11, so a unit is 2^-42. All numbers here are exact.
     let unit = 2f64.powi(-42);
     let mut number = || {
         let [high, low] = [(); 2].map(|()| f64::from(random.below(1 << 23)));
@@ -371,7 +383,7 @@ fn beside(random: &mut Lcg, units: f64) -> (f64, f64) {
     put(falling, falling.map(|[x, y, z]| [x, y, z - 4.0]));
     let first = world.first_impact(ALL, 0.0).unwrap().unwrap();
     let step = world.collision_free_step(ALL, 0.0).unwrap();
-    // The triangle may become flat before.
+    // The triangle may become flat before; then the first contact is not at the known time.
     let is_falling = first.high() == 0.75;
     (
         if is_falling { units * least } else { 0.0 },
@@ -379,7 +391,9 @@ fn beside(random: &mut Lcg, units: f64) -> (f64, f64) {
     )
 }
 
-/// Rounding moves two points towards each other by five units on each axis at most: nothing that is nine apart is in the way of a step.
+/// Points nine units apart or more shorten no step.
+///
+/// Rounding moves two points towards each other by at most five units on each axis.
 #[test]
 fn steps_are_long_where_all_is_nine_units_apart_and_may_be_short_where_it_is_one() {
     let mut random = Lcg(9);

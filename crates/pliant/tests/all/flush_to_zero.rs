@@ -1,19 +1,20 @@
-//! A calling thread in which subnormal numbers are flushed to zero and taken for zero, as audio code and physics engines set it.
+//! Calling threads that flush subnormal numbers to zero, as audio code and physics engines set it.
 //!
-//! Answers are the same there for coordinates that are zero or at least 2^-126 (`f32`) or 2^-969 (`f64`) in magnitude: filter,
-//! exact arithmetic and boxes are made so that what they compute is not subnormal, or that losing it is paid for. Smaller
-//! coordinates are zero in such a thread before anything of ours runs.
+//! Such threads also read subnormal numbers as zero. Answers are the same for coordinates that are
+//! zero or at least 2^-126 (`f32`) or 2^-969 (`f64`) in magnitude. Results of filter, exact
+//! arithmetic and boxes are not subnormal, or their loss is allowed for. Smaller coordinates are
+//! zero in such a thread before any of our code runs.
 
 use pliant::{Error, ErrorKind, Scalar, Selection, World, reference};
 use pliant_oracle::{Class, Random, Triangle, fits_f32, intersect, subnormals_flushed};
 
-/// Zero, or not below 2^exponent.
+/// Whether every coordinate is zero or at least 2^exponent in magnitude.
 fn all_from(exponent: i32, pair: &[Triangle; 2]) -> bool {
     let mut coordinates = pair.as_flattened().as_flattened().iter();
     coordinates.all(|&x| x == 0.0 || x.abs() >= 2f64.powi(exponent))
 }
 
-/// What a world and the reference say of each pair. The world moves from pair to pair.
+/// Answers of a world and of the reference for each pair. The world moves from pair to pair.
 fn answers<S: Scalar>(pairs: &[[[[S; 3]; 3]; 2]]) -> Vec<[bool; 2]> {
     let mut world = World::new();
     let start = [[S::default(); 3]; 3];
@@ -28,7 +29,7 @@ fn answers<S: Scalar>(pairs: &[[[[S; 3]; 3]; 2]]) -> Vec<[bool; 2]> {
     pairs.iter().map(answer).collect()
 }
 
-/// Compares, in an ordinary thread, what a thread that flushes found with what the oracle says.
+/// Compares answers of a thread that flushes with the oracle, which runs in an ordinary thread.
 fn check<S: Scalar>(pairs: &[[Triangle; 2]], narrowed: impl Fn(f64) -> S) {
     let input: Vec<_> = pairs
         .iter()
@@ -61,7 +62,7 @@ fn answers_stay_right() {
     }
 }
 
-/// Where products of two and three differences, and single coordinates, leave the normal range of either type.
+/// Products of two and three differences, and single coordinates, leave the normal range.
 #[test]
 fn answers_stay_right_at_the_ends_of_the_range() {
     let mut random = Random::new(9);
@@ -125,14 +126,15 @@ fn what_such_a_thread_would_lose_is_refused() {
     );
     assert_eq!(added, Err(Error { body: None, kind }));
     assert_eq!(same, Ok(()));
-    // In a thread that keeps them they are welcome.
+    // A thread that keeps subnormal numbers accepts them.
     world.set_positions(body, &bad).unwrap();
 }
 
-/// What is nearer than the smallest number that such a thread knows, and does not touch, is told as that.
+/// A distance below the smallest normal number is returned as that number, and not as zero.
 #[test]
 fn what_nearly_touches_is_not_said_to_touch() {
-    // A triangle in the plane x + 1000 y + 1000 z = 1, which is 1 / 1414 from 0, in units of 2^-1020 off a place.
+    // The plane x + 1000 y + 1000 z = 1 is 1 / 1414 from 0. Coordinates are in units of 2^-1020,
+    // from the point at 2^-968 on each axis.
     let unit = 4.0 * f64::MIN_POSITIVE;
     let at = |all: [[f64; 3]; 3]| all.map(|it| it.map(|x| 2f64.powi(-968) + x * unit));
     let corner = at([[0.0; 3], [-2000.0, 0.0, 0.0], [0.0, -2000.0, 0.0]]);

@@ -1,4 +1,4 @@
-//! Steps that say how they begin: what is in contact at the start is named, the first of all lists, and whether anything moves.
+//! Free steps report how they begin: the first contact at the start, and whether anything moves.
 
 use crate::common::{Lcg, every_configuration, sheet};
 use pliant::{
@@ -40,14 +40,14 @@ fn a_step_of_bodies_without_a_motion_says_that_nothing_moves() {
     for of in of_all {
         assert!(world.free_step(of, 0.0).unwrap().moves);
     }
-    // That of another body does not count.
+    // The motion of another body does not count.
     assert!(
         !world
             .free_step(Selection::Within(floor), 0.0)
             .unwrap()
             .moves
     );
-    // A motion to nowhere is one; a new shape ends it.
+    // A motion to the same shape is a motion; a new shape ends it.
     world.set_motion(body, &leaf).unwrap();
     assert!(world.free_step(Selection::World, 0.0).unwrap().moves);
     world.set_positions(body, &leaf).unwrap();
@@ -70,7 +70,8 @@ fn a_step_that_begins_in_contact_names_the_first_pair() {
             triangle: 0,
         })
     };
-    // It is through the floor; no vertex is near it, nor any edge near another. Each way out is a contact.
+    // It is through the floor, with no vertex near it and no edges near each other. Each way out is
+    // a contact.
     let through = [[0.0, 0.0, -1.0], [1.0, 0.0, 2.0], [-1.0, 0.0, 2.0]];
     let (mut world, bodies) = floor_and(through);
     let of = Selection::Everything;
@@ -87,7 +88,7 @@ fn a_step_that_begins_in_contact_names_the_first_pair() {
     assert_eq!(step.begins_in_contact, Some(triangles));
     assert_eq!(Ok(step.t), world.collision_free_step(of, 0.0));
 
-    // It touches the floor, and may go through: the step does not look at that.
+    // It touches the floor and may go through, which the step does not look at.
     let touching = [[0.0, 0.0, 0.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]];
     let (mut world, bodies) = floor_and(touching);
     world
@@ -96,7 +97,8 @@ fn a_step_that_begins_in_contact_names_the_first_pair() {
     let step = world.free_step(of, 0.0).unwrap();
     assert_eq!((step.t, step.begins_in_contact), (1.0, Some(triangles)));
 
-    // Triangles that share a vertex intersect in no list; a vertex of the one touches the other.
+    // Triangles that share a vertex are in no list of intersections; a vertex of the one touches
+    // the other.
     let mut world = World::<f64>::new();
     let folded = [&FLOOR[..], &[[0.0, 0.0, 0.0], [0.0, 1.0, 1.0]]].concat();
     let body = world.add(&[[0, 1, 2], [0, 3, 4]], &folded).unwrap();
@@ -109,7 +111,7 @@ fn a_step_that_begins_in_contact_names_the_first_pair() {
     };
     assert_eq!(begins, Some(InContact::VertexTriangle(expected)));
 
-    // Nearer than a distance, and not: at the distance itself it is.
+    // Nearer than the distance, and exactly at the distance, which counts as near.
     let near = raised(touching, 0.25);
     let (mut world, [floor, leaf]) = floor_and(near);
     world.set_motion(leaf, &raised(near, 1.0)).unwrap();
@@ -117,7 +119,7 @@ fn a_step_that_begins_in_contact_names_the_first_pair() {
     assert_eq!(begins(0.25), Some(vertex([leaf, floor])));
     assert_eq!(begins(0.25_f64.next_down()), None);
 
-    // Edges alone.
+    // A contact of edges alone.
     let mut world = World::<f64>::new();
     let blade = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -5.0]];
     let other = [[0.0, -1.0, 0.1], [0.0, 1.0, 0.1], [0.0, 0.0, 5.0]];
@@ -159,7 +161,7 @@ fn what_is_glued_together_or_kept_apart_begins_in_no_contact() {
     assert!(named.begins_in_contact.is_some());
 }
 
-/// The first of the lists that anybody can ask for.
+/// The first contact in the lists that anybody can ask for.
 fn first_of_lists(world: &mut World<f32>, of: Selection, distance: f64) -> Option<InContact> {
     if let Some(&pair) = world.intersections(of).all().unwrap().first() {
         return Some(InContact::Triangles(pair));
@@ -172,7 +174,9 @@ fn first_of_lists(world: &mut World<f32>, of: Selection, distance: f64) -> Optio
     close.first().map(|close| InContact::EdgeEdge(close.pair))
 }
 
-/// Sheets that touch, are through each other and through themselves: the same first pair for every option, that of the lists.
+/// The first pair is that of the lists for every option.
+///
+/// Sheets touch, go through each other and through themselves.
 #[test]
 fn the_first_pair_is_that_of_the_lists_for_every_option() {
     let (triangles, flat) = sheet(5);
@@ -246,7 +250,7 @@ fn what_is_refused_and_what_is_interrupted() {
     ] {
         assert_eq!(world.free_step(of, 0.0).unwrap_err().kind, kind);
     }
-    // At whichever look: afterwards it is as if nothing had been asked.
+    // Interrupted at any look, it leaves the world as if nothing had been asked.
     let expected = world.free_step(Selection::World, 0.1);
     let mut looks = 0;
     loop {

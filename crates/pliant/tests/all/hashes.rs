@@ -1,8 +1,9 @@
-//! One committed hash of the sorted pairs per scene, one of the candidates near each other and on the way, and of close pairs and distances
-//! with their figures, and one of what meets on the way with the times at which it does, the same for every choice that must not change an answer.
+//! Committed hashes of every answer on each scene, the same for every choice that must not matter.
 //!
-//! Whatever changes a pair, on purpose, in another configuration or on another machine, is noticed. A new choice (a number of
-//! threads, an instruction set) is one more line in `axes`.
+//! The lists are sorted pairs; candidates, near each other and on the way; close pairs and
+//! distances, with their figures; impacts, with their times. A pair that changes is noticed, be it
+//! on purpose, in another configuration or on another machine. A new choice, such as a number of
+//! threads or an instruction set, is one more line in `axes`.
 
 use crate::common::{TrianglesOf, combinations, covering, covers_every_pair, is_thorough};
 use pliant::{
@@ -14,7 +15,7 @@ use pliant_scenes::{Asks, Scene};
 use std::fmt::Debug;
 use std::num::{NonZeroU32, NonZeroUsize};
 
-/// Scene, triangles a body, steps, and the hash over the pairs of these steps and their number.
+/// Scene, triangles a body, steps, hash over the pairs of all these steps, and number of pairs.
 const COMMITTED: [(&str, usize, &[u32], u64, usize); 5] = [
     ("spheres", 320, &[40, 90, 200], 0x87a1_37e6_0c71_9b8d, 406),
     ("crowd", 80, &[1, 100, 200], 0x97ee_0d4f_548d_5c48, 146),
@@ -23,7 +24,7 @@ const COMMITTED: [(&str, usize, &[u32], u64, usize); 5] = [
     ("cloth", 648, &[10, 35, 50], 0x6717_87db_787a_24d6, 675),
 ];
 
-/// Of the same scenes and steps, the hash over what is near at a step, and on the way towards the next, and how much that is.
+/// Hash and number of candidates, at each step of [`COMMITTED`] and on the way to the next.
 const NEAR: [(&str, u64, usize); 5] = [
     ("spheres", 0x1ed0_a3e5_438d_9473, 4340),
     ("crowd", 0xdb8d_f352_4d2f_c04d, 2351),
@@ -32,8 +33,9 @@ const NEAR: [(&str, u64, usize); 5] = [
     ("cloth", 0xbdca_73b3_a372_aebc, 14_851),
 ];
 
-/// Of the same scenes and steps, the hash over what is close and how much that is; and the hash over the figures of all that, and
-/// over distances of bodies.
+/// Hash and number of close pairs at each step of [`COMMITTED`], and hash over figures.
+///
+/// Figures describe the close pairs, or are distances of bodies.
 const CLOSE: [(&str, (u64, usize, u64)); 5] = [
     (
         "spheres",
@@ -51,7 +53,9 @@ const CLOSE: [(&str, (u64, usize, u64)); 5] = [
     ),
 ];
 
-/// Of the same scenes and steps, the hash over what meets on the way towards the next, when, and how far everything may go; and how much that is.
+/// Hash and number of impacts on the way from each step of [`COMMITTED`] to the next.
+///
+/// The hash includes their times, and how far everything may go.
 const MEET: [(&str, u64, usize); 5] = [
     ("spheres", 0x3e8d_9f30_a3f9_238c, 229),
     ("crowd", 0x2699_b706_3327_26f1, 54),
@@ -60,26 +64,27 @@ const MEET: [(&str, u64, usize); 5] = [
     ("cloth", 0x316e_7e60_cb8e_6042, 167),
 ];
 
-/// How far apart is close.
+/// The distance of close pairs.
 const DISTANCE: f64 = 1.0 / 64.0;
 
-/// The bodies whose distances are asked for, from the first.
+/// The number of bodies after the first whose distances from it are asked for.
 const OTHERS: usize = 6;
 
-/// The margin round each element, and the part of the way to the next of the steps.
+/// The margin round each element.
 const RADIUS: f64 = 1.0 / 128.0;
+/// The end of motions for candidates, as a part of the way to the next step.
 const PART: f32 = 1.0 / 64.0;
-/// The part of the way on which things meet.
+/// The end of motions for impacts, as a part of the way to the next step.
 const LONGER_PART: f32 = 1.0 / 16.0;
 
-/// One way to ask.
+/// One combination of choices.
 #[derive(Clone, Default)]
 struct Case {
     options: Options,
     doubles: bool,
-    /// In a thread that flushes subnormal numbers.
+    /// Whether the calling thread flushes subnormal numbers.
     flushed: bool,
-    /// The kernels' instructions; the widest that pay if not said.
+    /// Instructions of the kernels; if `None`, the widest that pay.
     instructions: Option<Instructions>,
     name: String,
 }
@@ -90,7 +95,9 @@ fn instructions(case: &mut Case, instructions: Instructions, doubles: bool) {
     (case.instructions, case.doubles) = (Some(instructions), doubles);
 }
 
-/// All ways of each choice. Every two ways of two choices are tried together; every combination if tests are thorough.
+/// All values of each choice.
+///
+/// Every two values of two choices are tried together; if tests are thorough, every combination.
 fn axes() -> Vec<Vec<Change>> {
     vec![
         vec![
@@ -124,7 +131,7 @@ fn axes() -> Vec<Vec<Change>> {
     ]
 }
 
-/// Choices that have nothing to do with the others, each tried once.
+/// Choices that are independent of the others, each tried once.
 const ALONE: [Change; 14] = [
     ("2 threads, f32", |c| c.options.threads = threads(2)),
     ("7 threads, f32", |c| c.options.threads = threads(7)),
@@ -180,12 +187,12 @@ fn hybrid(level: u32, at_once: u32) -> Update {
     }
 }
 
-/// How many ways there are of each choice.
+/// Number of values of each choice.
 fn sizes() -> Vec<usize> {
     axes().iter().map(Vec::len).collect()
 }
 
-/// These combinations of what can be chosen together, and all of what is chosen alone.
+/// Cases of these combinations, and a case for each choice that is tried alone.
 fn cases(combinations: &[Vec<usize>]) -> Vec<Case> {
     let changed = |mut case: Case, (name, change): &Change| {
         change(&mut case);
@@ -201,7 +208,7 @@ fn cases(combinations: &[Vec<usize>]) -> Vec<Case> {
     together.chain(alone).collect()
 }
 
-/// FNV-1a, 64 bits, over the bytes of each number, least first.
+/// FNV-1a hash, 64 bits, over the bytes of each number, the lowest byte first.
 struct Fnv(u64);
 
 impl Default for Fnv {
@@ -217,7 +224,7 @@ impl Fnv {
         }
     }
 
-    /// The bits of figures.
+    /// Adds the bits of figures.
     fn add_figures(&mut self, figures: &[f64]) {
         for bits in figures.iter().map(|figure| figure.to_bits()) {
             self.add(&[bits as u32, (bits >> 32) as u32]);
@@ -225,7 +232,7 @@ impl Fnv {
     }
 }
 
-/// Every body at one step; all have the same triangles.
+/// Positions of all bodies at one step; all bodies have the same triangles.
 type Shapes = Vec<Vec<[f32; 3]>>;
 
 fn shapes(scene: &Scene, step: u32) -> Shapes {
@@ -242,7 +249,7 @@ fn widened<S>(positions: &[[f32; 3]], widen: fn(f32) -> S) -> Vec<[S; 3]> {
     positions.iter().map(|p| p.map(widen)).collect()
 }
 
-/// The bodies of a scene in their first shape: trees are built on it and meet the others.
+/// A world of a scene's bodies in their first shape, in which trees are built and bodies meet.
 fn world_of<S: Scalar>(
     case: &Case,
     scene: &Scene,
@@ -261,7 +268,7 @@ fn world_of<S: Scalar>(
     (world, bodies)
 }
 
-/// A part of the way from one step to another.
+/// Shapes on the way from one step to another.
 fn toward(from: &Shapes, to: &Shapes, part: f32) -> Shapes {
     let point = |(from, to): (&[f32; 3], &[f32; 3])| {
         std::array::from_fn(|axis| from[axis] + part * (to[axis] - from[axis]))
@@ -270,7 +277,7 @@ fn toward(from: &Shapes, to: &Shapes, part: f32) -> Shapes {
     from.iter().zip(to).map(body).collect()
 }
 
-/// What is near at all steps and on the way from each towards the next, and how much. `widen` is exact.
+/// Hash and number of candidates at all steps and on the way to the next. `widen` is exact.
 fn near_hash<S: Scalar>(
     case: &Case,
     scene: &Scene,
@@ -309,8 +316,10 @@ fn near_hash<S: Scalar>(
     (fnv.0, count)
 }
 
-/// What is close at all steps, in the shape of now whatever is on its way, with all figures, and how far bodies are apart. Distances are
-/// rounded to 2^-20: of several triangles that are as good as equally near it may be any. `widen` is exact.
+/// Hashes and number of close pairs with figures, and of distances. `widen` is exact.
+///
+/// Pairs are close in the present shape, whatever motion a body has. Distances are rounded to
+/// 2^-20, because any of several triangles that are about equally near may be found.
 fn close_hash<S: Scalar>(
     case: &Case,
     scene: &Scene,
@@ -372,7 +381,7 @@ fn close_hash<S: Scalar>(
     (pairs.0, count, figures.0)
 }
 
-/// What meets on the way from each step towards the next, with times to the last bit, and how far everything may go. `widen` is exact.
+/// Hash and number of impacts with times to the last bit, and of free steps. `widen` is exact.
 fn meet_hash<S: Scalar>(
     case: &Case,
     scene: &Scene,
@@ -407,7 +416,7 @@ fn meet_hash<S: Scalar>(
     (fnv.0, count)
 }
 
-/// The hash of all steps, and the number of pairs. `widen` is exact.
+/// Hash and number of pairs of all steps. `widen` is exact.
 fn hash<S: Scalar>(
     case: &Case,
     scene: &Scene,
@@ -446,7 +455,7 @@ fn hash<S: Scalar>(
     (fnv.0, count)
 }
 
-/// Asks in every case that is tried, and compares with what is committed.
+/// Asks in every case that is tried, and compares with the committed values.
 fn are_the_committed_ones<T: PartialEq + Debug + Send>(
     name: &str,
     committed: &T,
@@ -471,7 +480,7 @@ fn are_the_committed_ones<T: PartialEq + Debug + Send>(
             }
         };
         let found = if case.flushed {
-            // Where a thread cannot be made to flush, an ordinary one will do.
+            // Where a thread cannot be made to flush, an ordinary thread is used.
             subnormals_flushed(ask).unwrap_or_else(ask)
         } else {
             ask()
@@ -480,7 +489,7 @@ fn are_the_committed_ones<T: PartialEq + Debug + Send>(
     }
 }
 
-/// Tests that compare what is found in a scene with what is committed: one a scene, so that all cores have work to the end.
+/// Declares one test a scene against committed values, so that all cores have work to the end.
 macro_rules! of_each_scene {
     ($($test:ident: $committed:ident, $hash:ident;)*) => {
         $(of_each_scene! { $test: $committed, $hash; spheres crowd arms gather cloth })*
@@ -534,7 +543,7 @@ fn committed_meeting(name: &str) -> (u64, usize) {
     (scene.1, scene.2)
 }
 
-/// What no tree has touched; the scenes of many bodies take too long for it.
+/// The reference, which uses no tree; scenes of many bodies take too long for it.
 #[test]
 fn the_committed_pairs_are_those_of_the_reference() {
     for (name, triangles, steps, hash_committed, count_committed) in COMMITTED {

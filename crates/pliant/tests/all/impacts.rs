@@ -1,5 +1,7 @@
-//! Impacts: every configuration gives those of the plain reference, with the same intervals, in lives of worlds; the first is the exactly
-//! earliest; steps that are free of collision are, and are long enough.
+//! Impacts: every configuration gives the list of the plain reference, with the same intervals.
+//!
+//! Random lives of worlds are compared. The first impact is the exactly earliest. Free steps are
+//! free of collision, and are long enough.
 
 use crate::common::{Lcg, every_configuration, share, sheet};
 use pliant::reference::{self, Moving};
@@ -11,7 +13,7 @@ use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// What a test knows of a body.
+/// The test's own copy of a body.
 #[derive(Clone, Debug)]
 pub(crate) struct Known<S> {
     pub(crate) id: BodyId,
@@ -31,7 +33,7 @@ impl<S> Known<S> {
     }
 }
 
-/// Both lists.
+/// Impacts of vertices with triangles, and of edges with edges.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Lists {
     pub(crate) vertex_triangle: Vec<VertexTriangleImpact>,
@@ -83,7 +85,7 @@ impl Lists {
         self.of_edges(body, body, found.unwrap());
     }
 
-    /// Of all bodies, each with itself and with every other.
+    /// All impacts by the reference: each body with itself and with every other.
     pub(crate) fn of_all<S: Scalar>(known: &[Known<S>], width: f64) -> Self {
         let mut all = Self::default();
         for (at, a) in known.iter().enumerate() {
@@ -101,7 +103,9 @@ impl Lists {
         self
     }
 
-    /// All that may be the first, by the numbers next to the exact times: equal ones need not be equally early.
+    /// The least upper end of an interval, next to the first exact time.
+    ///
+    /// Several impacts may have it, and need not be equally early.
     fn first(&self) -> Option<f64> {
         let vertices = self.vertex_triangle.iter().map(|impact| impact.high);
         let edges = self.edge_edge.iter().map(|impact| impact.high);
@@ -109,7 +113,7 @@ impl Lists {
     }
 }
 
-/// What the world says; *visit_some*, *at_most* and an interruption agree with *all*.
+/// The world's lists; asserts that *visit_some*, *at_most* and an interruption agree with *all*.
 fn ask<S: Scalar>(world: &mut World<S>, of: Selection, width: f64) -> Lists {
     macro_rules! asked {
         ($ask:ident) => {{
@@ -134,7 +138,7 @@ fn ask<S: Scalar>(world: &mut World<S>, of: Selection, width: f64) -> Lists {
             if let Some(first) = first {
                 assert!(all.contains(&first), "{first:?}");
                 assert!(all.iter().all(|other| other.high >= first.high));
-                // Neighbouring numbers tell most times apart.
+                // Intervals one number wide tell most times apart.
                 let fine = world.$ask(of).width(0.0).all().unwrap().to_vec();
                 let of_first = fine.iter().find(|other| other.pair == first.pair).unwrap();
                 let earlier = fine.iter().find(|other| {
@@ -154,7 +158,7 @@ fn ask<S: Scalar>(world: &mut World<S>, of: Selection, width: f64) -> Lists {
     lists
 }
 
-/// Asks of everybody.
+/// Asks every selection, and compares with the reference.
 fn check<S: Scalar>(world: &mut World<S>, known: &[Known<S>], width: f64, when: &str) {
     let options = *world.options();
     let (mut all, mut between) = (Lists::default(), Lists::default());
@@ -195,7 +199,7 @@ fn is_free<S: Scalar>(known: &[Known<S>]) -> bool {
     vertices.chain(edges).all(|high| high == 0.0)
 }
 
-/// The time of the first contact after the start, or a little later; by the reference.
+/// Time of the first contact after the start, rounded up, by the reference.
 fn first_after_start<S: Scalar>(known: &[Known<S>]) -> Option<f64> {
     let all = Lists::of_all(known, 0.0);
     let vertices = all.vertex_triangle.iter().map(|impact| impact.high);
@@ -204,7 +208,7 @@ fn first_after_start<S: Scalar>(known: &[Known<S>]) -> Option<f64> {
     later.reduce(f64::min)
 }
 
-/// A step is free of contact on straight ways to the rounded shape, and long.
+/// Checks that a free step is free of contact on straight ways to the rounded shape, and long.
 fn check_step<S: Scalar>(world: &mut World<S>, known: &[Known<S>]) {
     let step = world
         .collision_free_step(Selection::Everything, 0.0)
@@ -227,7 +231,7 @@ fn check_step<S: Scalar>(world: &mut World<S>, known: &[Known<S>]) {
     }
 }
 
-/// Adjacency of every kind.
+/// Meshes with adjacency of every kind.
 fn mesh(random: &mut Lcg) -> (Vec<[u32; 3]>, usize) {
     match random.below(4) {
         0 => {
@@ -255,7 +259,7 @@ fn mesh(random: &mut Lcg) -> (Vec<[u32; 3]>, usize) {
     }
 }
 
-/// A life: bodies move, on a lattice or not, far from the origin or near.
+/// Life of a world whose bodies move, on a lattice or not, far from the origin or near.
 fn live<S: Scalar>(options: Options, seed: u32, from_f64: fn(f64) -> S) {
     let mut random = Lcg(u64::from(seed));
     let mut world = World::<S>::with_options(options);
@@ -285,7 +289,7 @@ fn live<S: Scalar>(options: Options, seed: u32, from_f64: fn(f64) -> S) {
     }
     for step in 0..3 {
         for body in &mut known {
-            // Of every motion, some vertices stand still.
+            // Some vertices stand still in every motion.
             let is_small = random.below(2) == 0;
             let still = random.below(3);
             let end: Vec<[S; 3]> = body
@@ -322,7 +326,7 @@ fn live<S: Scalar>(options: Options, seed: u32, from_f64: fn(f64) -> S) {
             &format!("seed {seed}, step {step}"),
         );
         check_step(&mut world, &known);
-        // On to the next: to the end, or part of the way.
+        // Goes on to the end of the motion, or part of the way.
         if random.below(2) == 0 {
             world.finish_motion();
         } else {
@@ -356,7 +360,7 @@ fn every_configuration_gives_the_impacts_of_the_reference_f64() {
     lives::<f64>(0, |x| x);
 }
 
-/// Points of a triangle and a vertex above it, closer and closer.
+/// A vertex that reaches a triangle exactly at the end of a motion, at sizes 2^-60 to 2^60.
 #[test]
 fn what_touches_exactly_at_the_end_is_found_at_every_size() {
     for exponent in -60..=60 {
@@ -369,7 +373,8 @@ fn what_touches_exactly_at_the_end_is_found_at_every_size() {
                 [4.0 * size, 0.0, unit()],
                 [0.0, 4.0 * size, unit()],
             );
-            // A middle of the triangle that is exact: a plus halves of sides, of numbers with few digits.
+            // A point of the triangle that is exact: a plus parts of sides, whose numbers have few
+            // digits.
             let [u, v] = [0.25, 0.5];
             let at: [f64; 3] = std::array::from_fn(|i| u * b[i] + v * c[i]);
             let is_exact =
@@ -383,7 +388,7 @@ fn what_touches_exactly_at_the_end_is_found_at_every_size() {
             let found = pliant::vertex_triangle_impacts(&start, &end, 1e-6).unwrap()[0];
             let [low, high] = found.expect("it touches");
             assert!(low < 1.0 && high == 1.0);
-            // And one step short of it does not.
+            // One floating-point number short of it, nothing meets.
             let short = [[[at[0], at[1], at[2].next_up()], a, b, c]];
             assert_eq!(
                 pliant::vertex_triangle_impacts(&start, &short, 1e-6).unwrap()[0],
@@ -425,7 +430,7 @@ fn exchanged_reversed_scaled_and_translated_motions_give_the_same() {
             assert_eq!(edges(scaled(start), scaled(end)), e);
             assert_eq!(vertex(scaled(start), scaled(end)), v);
         }
-        // Exact, as all are multiples of 2^-20.
+        // Exact, as all coordinates are multiples of 2^-20.
         let moved = |corners: [[f64; 3]; 4]| corners.map(|p| p.map(|x| x + 4096.0));
         assert_eq!(edges(moved(start), moved(end)), e);
         assert_eq!(vertex(moved(start), moved(end)), v);
@@ -433,7 +438,7 @@ fn exchanged_reversed_scaled_and_translated_motions_give_the_same() {
     assert!(met > 800, "{met}");
 }
 
-/// The step of a world in which a vertex falls on a triangle from a height, as far as it may.
+/// A vertex that falls on a triangle stops at the distance that is asked for.
 #[test]
 fn steps_keep_a_distance() {
     for (round, distance) in [0.0, 1e-3, 0.1, 0.25].into_iter().enumerate() {
@@ -465,7 +470,7 @@ fn steps_keep_a_distance() {
                 .unwrap(),
             1.0
         );
-        // Nearer than a larger distance already, it is kept from contact alone.
+        // If it is already nearer than a larger distance, it is only kept from contact.
         let down: Vec<[f64; 3]> = now.iter().map(|&[x, y, z]| [x, y, z - 8.0]).collect();
         world.set_motion(body, &down).unwrap();
         let height = now[0][2];
@@ -484,7 +489,7 @@ fn steps_keep_a_distance() {
     );
 }
 
-/// Where one body is far away, others are looked at no more closely than without it.
+/// A body far away does not make the others be looked at more closely.
 #[test]
 fn a_body_far_away_costs_others_nothing() {
     let mut world = World::<f32>::new();
@@ -515,7 +520,9 @@ fn a_body_far_away_costs_others_nothing() {
     assert!(before.iter().all(|(_, [_, candidates])| *candidates > 0));
 }
 
-/// A sheet that crumples, advanced by free steps alone, never meets itself nor a ball, at any time that is looked at; with a distance it keeps it.
+/// A crumpling sheet that is advanced by free steps alone never meets itself nor a ball.
+///
+/// Several times within each step are looked at. If a distance is asked for, it is kept.
 #[test]
 fn worlds_that_take_free_steps_never_intersect() {
     for (seed, distance) in [(1, 0.0), (2, 0.0), (3, 0.02)] {
@@ -550,7 +557,7 @@ fn worlds_that_take_free_steps_never_intersect() {
             shortened += u32::from(step < 1.0);
             let before = bodies.map(|body| world.positions(body).unwrap());
             world.advance_motion(step).unwrap();
-            // On the straight way to the shape that was made, where these times are exact in double precision.
+            // Times on the straight way to the new shape; these are exact in double precision.
             for part in [0.25, 0.5, 0.75, 1.0] {
                 for (place, &body) in bodies.iter().enumerate() {
                     let after = world.positions(body).unwrap();
@@ -577,7 +584,7 @@ fn worlds_that_take_free_steps_never_intersect() {
     }
 }
 
-/// What is refused changes nothing.
+/// Refused calls change nothing.
 #[test]
 fn refusals() {
     let mut world = World::<f64>::new();
@@ -616,7 +623,9 @@ fn refusals() {
     assert_eq!(first.map(|impact: Impact| impact.low()), None);
 }
 
-/// Single pairs are ended early between any two that take long, and now and then among those that do not.
+/// Queries of single pairs look for an interruption between pairs.
+///
+/// They look between any two pairs that take long, and now and then among the others.
 #[test]
 fn single_pairs_are_interrupted_between_pairs() {
     let triangle = [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
@@ -624,7 +633,7 @@ fn single_pairs_are_interrupted_between_pairs() {
         let [a, b, c] = triangle;
         [[1.0, 1.0, z], a, b, c]
     };
-    // Every third meets: those are decided one by one.
+    // Every third pair meets, and such pairs are decided one by one.
     let heights = (0..60).map(|at| if at % 3 == 0 { -1.0 } else { 1.0 });
     let start = [pair(1.0); 60];
     let end: Vec<_> = heights.map(pair).collect();
@@ -644,7 +653,7 @@ fn single_pairs_are_interrupted_between_pairs() {
             (ErrorKind::Interrupted, until + 1)
         );
     }
-    // None of a hundred thousand meets.
+    // No pair of a hundred thousand meets.
     let far = vec![pair(1.0); 100_000];
     let (answer, asked) = ask(u32::MAX, &far, &far);
     assert!(answer.unwrap().iter().all(Option::is_none) && asked > 10);

@@ -1,13 +1,14 @@
-//! Which folder of the library may use which: arrows run one way.
+//! Layers of the library: which folder may use which; arrows run one way.
 //!
-//! This is about structure, not style. Folders are listed from the bottom up; each may use those listed with it, which all stand before
-//! it. Within a folder, files beside each other do not use each other in circles. Unit tests may use what they like.
+//! This is about structure, not style. Folders are listed from the bottom up. Each may use the
+//! folders listed with it, which all stand before it. Within a folder, files beside each other do
+//! not use each other in circles. Unit tests may use what they like.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Folder, or file of the crate's root, and what it may use.
+/// A folder, or a file of the crate's root, and the folders that it may use.
 const LAYERS: [(&str, &[&str]); 22] = [
     ("held", &[]),
     ("ids", &[]),
@@ -137,7 +138,7 @@ const LAYERS: [(&str, &[&str]); 22] = [
     ("lib", &[]),
 ];
 
-/// What the root exports under a name of its own, and where it is from.
+/// Names that the root exports, and the folder that defines each.
 const EXPORTED: [(&str, &str); 32] = [
     ("BodyId", "ids"),
     ("BroadPhase", "options"),
@@ -173,7 +174,7 @@ const EXPORTED: [(&str, &str); 32] = [
     ("vertex_triangle_impacts", "world"),
 ];
 
-/// Structs of `bodies` whose fields others see, and why; the fields of all others are their own.
+/// Structs of `bodies` with visible fields, and the reason; all other structs keep theirs private.
 const RECORDS: [(&str, &str); 3] = [
     (
         "NewShape",
@@ -205,7 +206,7 @@ fn files(folder: &Path) -> Vec<(PathBuf, String)> {
     all
 }
 
-/// The names that stand behind a prefix such as `crate::`, each once, those in braces too.
+/// Names behind a prefix such as `crate::`, each once, names in braces included.
 fn names_behind(prefix: &str, code: &str) -> BTreeSet<String> {
     let is_part = |c: char| c.is_alphanumeric() || c == '_';
     let first = |text: &str| text.chars().take_while(|&c| is_part(c)).collect::<String>();
@@ -329,7 +330,7 @@ fn files_beside_each_other_use_each_other_in_no_circle() {
         folders.entry(folder).or_default().insert(name, uses);
     }
     for (folder, mut files) in folders {
-        // What its parent exports of a file counts as the file, which is not known here; names of files do.
+        // A name that the parent exports from a file is no name of a file, so it is left out here.
         files.remove("mod");
         let there: BTreeSet<_> = files.keys().cloned().collect();
         for uses in files.values_mut() {
@@ -357,7 +358,7 @@ fn one_folder_knows_instruction_sets_and_one_knows_thread_pools() {
             "{}",
             path.display()
         );
-        // The public face hands a pool of the application's on.
+        // The public interface takes a rayon pool from the application and hands it on.
         let hands_on = layer == "threads" || layer == "world";
         assert!(hands_on || !code.contains("rayon"), "{}", path.display());
     }

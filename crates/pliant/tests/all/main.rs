@@ -1,8 +1,10 @@
-//! The tests of the library, one file a module, in one program: a program each is linked with the whole library each time, and is waited for
-//! while its last test runs alone. One file: `cargo test -p pliant --test all candidates::`.
+//! Tests of the library in one program, a module a file.
 //!
-//! Beside it stand those that nothing may disturb: `allocation` and `memory` count what is allocated, `queries` how often a query looks
-//! whether it is interrupted.
+//! Each program would be linked with the whole library, and waited for while its last test runs
+//! alone. To run one file: `cargo test -p pliant --test all candidates::`.
+//!
+//! Tests that nothing may disturb are programs of their own. `allocation` and `memory` count what
+//! is allocated; `queries` counts how often a query looks whether it is interrupted.
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,4 +1,5 @@
-//! Trees that mend themselves change no answer, and do less; and what a tree says of its decay is near what is measured.
+//! Trees that mend themselves change no answer and do less, and the decay that they report is
+//! right.
 
 use crate::common::{Lcg, every_configuration, is_thorough};
 use pliant::{BodyId, Edit, Options, Pair, Partition, Selection, World};
@@ -98,7 +99,7 @@ fn scene(name: &str, size: usize) -> ChangingScene {
     ChangingScene::new(name, Some(size), ChangingScene::DEFAULT_SEED).unwrap()
 }
 
-/// A module of tests, one a scene, so that all cores have work to the end.
+/// Declares a module of tests, one for each scene, so that all cores have work to the end.
 macro_rules! of_each_scene {
     ($check:ident) => {
         of_each_scene! { $check: cut tear fuse shuffle remesh }
@@ -154,7 +155,8 @@ fn mended_worlds_answer_like_others(name: &str) {
     assert!(name != "shuffle" || exchanged > 0);
 }
 
-/// A body that is given other meshes while its tree is being built: with fewer triangles, and with more again.
+/// A body gets other meshes while its tree is being built, with fewer triangles and with more
+/// again.
 #[test]
 fn meshes_may_change_while_a_tree_is_built() {
     let scene = scene("shuffle", 20 * 1024);
@@ -181,8 +183,10 @@ fn meshes_may_change_while_a_tree_is_built() {
     }
 }
 
-/// Triangles and vertices come and go at every step while trees are built and exchanged; edges keep their numbers. In as many lives
-/// as `LIVES` says, or one, each in another configuration.
+/// Triangles and vertices come and go at every step, while trees are built and exchanged.
+///
+/// Edges keep their numbers. The environment variable `LIVES` sets the number of lives, which is
+/// one by default; each has another configuration.
 fn edits_go_on(partition: Partition, first_seed: u64) {
     let scene = scene("shuffle", 8 * 1024);
     let lives: usize = std::env::var("LIVES").map_or(1, |lives| lives.parse().unwrap());
@@ -199,7 +203,7 @@ fn edits_go_on(partition: Partition, first_seed: u64) {
         let first_vertices = positions.len();
         let id = plain.add(scene.triangles(0), &positions).unwrap();
         mended.add(scene.triangles(0), &positions).unwrap();
-        // Vertices that come are beside one that was there at first.
+        // New vertices are beside a vertex that was there at first.
         let mut beside: Vec<u32> = Vec::new();
         for step in 1..=60 {
             scene.positions(0, step, &mut positions);
@@ -218,7 +222,8 @@ fn edits_go_on(partition: Partition, first_seed: u64) {
                 if !live[triangle as usize] || named.iter().any(of_it) {
                     continue;
                 }
-                // What an edit did to a triangle is not looked at, so no later one of it touches the same corners.
+                // The effect of an edit on a triangle is not read back, so no later edit may touch
+                // its corners.
                 named.extend([a, b, c]);
                 match random.below(4) {
                     0 => edits
@@ -267,7 +272,7 @@ fn edits_go_on(partition: Partition, first_seed: u64) {
                 mended.validate().unwrap();
             }
         }
-        // An edit counts once in either world, and so does an exchange of trees.
+        // An edit counts once in either world; an exchange of trees counts too, and only one mends.
         let [plain, mended] = [plain, mended].map(|it| it.mesh_revision(id).unwrap());
         println!("{options:?}: trees were exchanged {} times", mended - plain);
         exchanged += mended - plain;
@@ -291,12 +296,14 @@ fn edits_go_on_while_a_tree_cut_at_the_mean_is_built() {
     edits_go_on(Partition::Mean, 2);
 }
 
-/// Pairs of nodes, all counted.
+/// Pairs of nodes that a player's last query looked at.
 fn node_pairs(player: &Player) -> u64 {
     player.world.statistics().node_pairs
 }
 
-/// On a smaller scene trees decay less.
+/// A mended tree looks at fewer than twice the pairs of nodes of a fresh one.
+///
+/// Left alone, it would look at more than five times as many. On smaller scenes trees decay less.
 #[test]
 fn a_mended_tree_does_little_more_than_a_fresh_one() {
     let scene = scene("shuffle", 20 * 1024);
@@ -310,7 +317,7 @@ fn a_mended_tree_does_little_more_than_a_fresh_one() {
     for step in 1..=scene.steps() {
         mended.step(&scene, step);
         if step % every > 0 {
-            // What the others do at a step does not depend on those before.
+            // Work of the other worlds at a step does not depend on the steps before.
             continue;
         }
         plain.step(&scene, step);
@@ -342,7 +349,9 @@ fn a_mended_tree_does_the_same_where_shapes_are_ends_of_motions() {
 
 of_each_scene!(decay_is_said_within_a_quarter_of_what_is_measured);
 
-/// Of the scenes at their own size: on smaller ones candidates are most of what there is.
+/// Reported decay against measured decay, on scenes at their own size.
+///
+/// On smaller ones candidates are most of the work.
 fn decay_is_said_within_a_quarter_of_what_is_measured(name: &str) {
     let every = if is_thorough() { 20 } else { 60 };
     let scene = ChangingScene::new(name, None, ChangingScene::DEFAULT_SEED).unwrap();
@@ -359,7 +368,7 @@ fn decay_is_said_within_a_quarter_of_what_is_measured(name: &str) {
             continue;
         }
         for &id in &fresh.ids {
-            // A body that another took in is no more.
+            // A body that another one took in does not exist any more.
             let _ = fresh.world.rebuild(id);
         }
         let found = fresh.world.intersections(Selection::Everything).all();
@@ -374,7 +383,7 @@ fn decay_is_said_within_a_quarter_of_what_is_measured(name: &str) {
     }
 }
 
-/// A tree along the mesh would be the same again.
+/// Trees along the mesh are not mended, as they would come out the same.
 #[test]
 fn trees_along_the_mesh_are_left_alone() {
     let scene = scene("shuffle", 8 * 1024);

@@ -1,8 +1,9 @@
-//! What must not change an answer: the order of bodies, triangles, corners and vertices, and every change of the coordinates that
-//! is affine and exact. No reference is asked; a world is compared with itself.
+//! Metamorphic tests: changes of the input that must not change an answer; no reference is asked.
 //!
-//! On triangle soups over few places (touching, coplanar, equal and degenerate triangles in plenty) and on scenes, in `f32` and
-//! `f64`.
+//! Changes are the order of bodies, triangles, corners and vertices, and every affine change of the
+//! coordinates that is exact. A world is compared with itself, in `f32` and `f64`. Inputs are
+//! scenes and triangle soups over few places, with many touching, coplanar, equal and degenerate
+//! triangles.
 
 use crate::common::{Lcg, TrianglesOf};
 use pliant::{Options, Scalar, Selection, World};
@@ -10,14 +11,14 @@ use pliant_oracle::{Class, Random, Triangle, fits_f32};
 use pliant_scenes::Scene;
 use std::collections::BTreeSet;
 
-/// Coordinates that both types hold exactly.
+/// A body with coordinates that both types hold exactly.
 #[derive(Clone)]
 struct Body {
     triangles: Vec<[u32; 3]>,
     positions: Vec<[f64; 3]>,
 }
 
-/// (body, triangle, body, triangle), the smaller (body, triangle) first.
+/// Pairs of (body, triangle), the smaller one first.
 type Pairs = BTreeSet<[(usize, usize); 2]>;
 
 fn pair(mut sides: [(usize, usize); 2]) -> [(usize, usize); 2] {
@@ -25,7 +26,7 @@ fn pair(mut sides: [(usize, usize); 2]) -> [(usize, usize); 2] {
     sides
 }
 
-/// All pairs of all bodies, each with itself too.
+/// All pairs of all bodies, each body with itself included.
 fn pairs<S: Scalar>(options: Options, bodies: &[Body], narrow: impl Fn(f64) -> S) -> Pairs {
     let mut world = World::with_options(options);
     let mut ids = Vec::new();
@@ -67,7 +68,7 @@ fn pairs<S: Scalar>(options: Options, bodies: &[Body], narrow: impl Fn(f64) -> S
     for (a, &id_a) in ids.iter().enumerate() {
         for (b, &id_b) in ids.iter().enumerate() {
             if a != b {
-                // Asked by name, either first, there is no more and no less.
+                // By name, in either order, two bodies have the same pairs, no more and no less.
                 let between = world.triangles_of(Selection::Between(id_a, id_b));
                 let side = |p: &[u32; 2]| pair([(a, p[0] as usize), (b, p[1] as usize)]);
                 assert!(between.iter().all(|p| found.contains(&side(p))));
@@ -79,7 +80,7 @@ fn pairs<S: Scalar>(options: Options, bodies: &[Body], narrow: impl Fn(f64) -> S
     found
 }
 
-/// The pairs in both types and two configurations, which are the same.
+/// The pairs, which are asserted to be equal in both types and two configurations.
 fn answer(bodies: &[Body], in_f32: bool) -> Pairs {
     let expected = pairs(Options::default(), bodies, |x| x);
     assert!(pairs(Options::paper(), bodies, |x| x) == expected);
@@ -90,7 +91,7 @@ fn answer(bodies: &[Body], in_f32: bool) -> Pairs {
     expected
 }
 
-/// 0, 1, .. count - 1 in some order.
+/// A random permutation of 0, 1, ..., count - 1.
 fn shuffled(count: usize, random: &mut Lcg) -> Vec<usize> {
     let mut order: Vec<_> = (0..count).collect();
     for i in (1..count).rev() {
@@ -99,7 +100,9 @@ fn shuffled(count: usize, random: &mut Lcg) -> Vec<usize> {
     order
 }
 
-/// Bodies, triangles, corners and vertices in another order. Also where each (body, triangle) of the result was before.
+/// Bodies, triangles, corners and vertices in another order.
+///
+/// Also returns where each (body, triangle) of the result was before.
 fn reordered(bodies: &[Body], random: &mut Lcg) -> (Vec<Body>, Vec<(usize, Vec<usize>)>) {
     let mut result = Vec::new();
     let mut before = Vec::new();
@@ -161,13 +164,15 @@ fn check_order(bodies: &[Body], in_f32: bool, random: &mut Lcg) -> usize {
     expected.len()
 }
 
-/// Multiplies with a power of two that may be beyond the range of one factor.
+/// `x` times a power of two that a single factor may be unable to hold.
 fn times(x: f64, exponent: i32) -> f64 {
     x * 2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2)
 }
 
-/// `least` and `most`: the powers of two by which the coordinates may be multiplied and stay exact as `f32`; `far_below`: some
-/// that only `f64` has.
+/// Scales and mirrors the bodies in many ways; none changes the answer.
+///
+/// `least` and `most` are the extreme powers of two at which all coordinates stay exact as `f32`.
+/// `far_below` are powers for `f64` alone.
 fn check_changes(bodies: &[Body], least: i32, most: i32, far_below: &[i32]) {
     let expected = answer(bodies, true);
     let check = |change: &dyn Fn([f64; 3]) -> [f64; 3], in_f32: bool, what: &str| {
@@ -184,7 +189,7 @@ fn check_changes(bodies: &[Body], least: i32, most: i32, far_below: &[i32]) {
     for &exponent in far_below {
         check(&|p| p.map(|x| times(x, exponent)), false, "scaled in f64");
     }
-    // Each axis by itself.
+    // Each axis has a factor of its own.
     check(
         &|[x, y, z]| [times(x, least), y, times(z, most)],
         true,
@@ -208,7 +213,9 @@ fn check_changes(bodies: &[Body], least: i32, most: i32, far_below: &[i32]) {
     check(&|[x, y, z]| [-y, x, z], true, "turned");
 }
 
-/// For coordinates that are multiples of `unit` and below 64 of it a thousandfold.
+/// Translates and shears the bodies by exact amounts; none changes the answer.
+///
+/// Coordinates are multiples of `unit` and below 64,000 units.
 fn check_grid_changes(bodies: &[Body], unit: f64) {
     let expected = answer(bodies, true);
     let check = |change: &dyn Fn([f64; 3]) -> [f64; 3], in_f32: bool, what: &str| {
@@ -230,7 +237,7 @@ fn check_grid_changes(bodies: &[Body], unit: f64) {
     check(&|[x, y, z]| [x + y, y, z - 2.0 * x], true, "sheared");
 }
 
-/// Triangles over few places, `flat` ones in one plane that is not that of two axes.
+/// A soup of triangles over few places; `flat`: in one oblique plane.
 fn soup(random: &mut Lcg, flat: bool) -> Body {
     let vertices = 6 + random.below(20);
     let range = 2 + random.below(5);
@@ -260,8 +267,10 @@ fn soups() -> impl Iterator<Item = Vec<Body>> {
     })
 }
 
-/// Triangles in pairs that nearly touch, nearly lie in one plane, are slivers: many a sign is decided by the last bit.
-/// In `f32`, or with all the digits of `f64`.
+/// Pairs of triangles that nearly touch, are nearly coplanar, or are slivers.
+///
+/// Many a sign is decided by the last bit. If `single`, coordinates are `f32`, else they use all
+/// digits of `f64`.
 fn hard(single: bool) -> Vec<Body> {
     let mut random = Random::new(19);
     let classes = [Class::NearlyCoplanar, Class::NearlyTouching, Class::Slivers];
@@ -277,7 +286,7 @@ fn hard(single: bool) -> Vec<Body> {
     vec![body(0), body(1)]
 }
 
-/// A scene at one step, rounded to multiples of 2^-12.
+/// A scene at one step, with coordinates rounded to multiples of 2^-12.
 fn scene(name: &str, triangles: usize, step: u32) -> Vec<Body> {
     let scene = Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).unwrap();
     let mut positions = Vec::new();
@@ -314,7 +323,8 @@ fn order_does_not_matter() {
 
 #[test]
 fn scale_and_mirrors_do_not_matter() {
-    // The smallest f32 is 2^-149; the coordinates are integers of four bits, or multiples of 2^-12 below 2^10.
+    // The smallest f32 is 2^-149. Coordinates are integers of four bits, or multiples of 2^-12
+    // below 2^10.
     check_changes(&hard(true), -60, 60, &[-900, -300]);
     soups().for_each(|bodies| check_changes(&bodies, -149, 123, &[-1074, -600, -350, -288, -200]));
     scenes()

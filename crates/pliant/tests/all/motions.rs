@@ -1,10 +1,11 @@
-//! When moving elements first meet, on hard motions against an oracle that computes in big integers and from another formulation.
+//! First contacts of hard motions, against an oracle in big integers with another formulation.
 //!
-//! Thousands of motions here; ten million by
+//! Thousands of motions are compared here, and ten million by the first command. The second times
+//! the slowest.
 //!
 //! ```sh
 //! cargo test --release -p pliant --test all motions::ten -- --ignored --nocapture
-//! cargo test --release -p pliant --test all motions::slowest -- --ignored --nocapture   # how long the slowest take
+//! cargo test --release -p pliant --test all motions::slowest -- --ignored --nocapture
 //! ```
 
 use pliant::{edge_edge_impacts, vertex_triangle_impacts};
@@ -13,7 +14,7 @@ use std::cmp::Ordering;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Widths of intervals, and how often each is asked for.
+/// Widths of intervals that are asked for in turn; a repeated one is asked for more often.
 const WIDTHS: [f64; 8] = [1e-6, 1e-6, 1e-6, 1e-6, 0.0, 1.0, 1e-12, 1e-300];
 
 fn impact(elements: Elements, [start, end]: &Moving, width: f64) -> Option<[f64; 2]> {
@@ -24,7 +25,7 @@ fn impact(elements: Elements, [start, end]: &Moving, width: f64) -> Option<[f64;
     impacts.unwrap()[0]
 }
 
-/// What was compared, of one class.
+/// Counters and times of the motions compared in one class.
 #[derive(Clone, Copy, Default)]
 struct Tally {
     motions: u64,
@@ -87,7 +88,8 @@ fn compare_all(seed: u64, count: u64) {
         });
         let [a, b] = tally;
         println!(
-            "{class:?}: {} motions, {} meet, {} of them at the start, {} in f32 too; {:?} each, the slowest {:?}",
+            "{class:?}: {} motions, {} meet, {} of them at the start, {} in f32 too; \
+             {:?} each, the slowest {:?}",
             a.motions + b.motions,
             a.meeting + b.meeting,
             a.at_start + b.at_start,
@@ -120,8 +122,9 @@ fn ten_million() {
     compare_all(101, 10_000_000 / classes + 1);
 }
 
-/// The slowest and the hundredth slowest of 100,000 motions of every class, each the least of three times, which other work on the machine
-/// hardly disturbs.
+/// Times of the slowest and the hundredth slowest of 100,000 motions of every class.
+///
+/// Each is the least of three, which other work on the machine hardly disturbs.
 #[test]
 #[ignore = "times: minutes, on a quiet machine"]
 fn slowest() {

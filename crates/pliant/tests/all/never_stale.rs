@@ -1,34 +1,38 @@
-//! No sequence of calls gives an answer for old positions: worlds that live are compared with worlds built fresh.
+//! No sequence of calls gives an answer for old positions.
+//!
+//! Worlds that live are compared with worlds built fresh.
 
 use crate::common::{Lcg, TrianglesOf, covering_configurations, every_configuration, sheet};
 use pliant::{BodyId, Options, Pair, Scalar, Selection, World};
 
-/// What a test knows of a body: enough to build it anew.
+/// The test's own copy of a body, enough to build it anew.
 #[derive(Clone)]
 struct Known<S> {
     id: BodyId,
     triangles: Vec<[u32; 3]>,
-    /// The sheet that all its shapes begin as.
+    /// The flat sheet from which all its shapes are made.
     flat: Vec<[f32; 3]>,
     positions: Vec<[S; 3]>,
     membership: u32,
     mask: u32,
 }
 
-/// All that a world can be asked.
+/// Answers of a world to all selections.
 #[derive(Debug, PartialEq)]
 struct Answers {
     between_all: Vec<Pair>,
-    /// The same, and each body with itself that filters let meet itself.
+    /// All pairs of different bodies, and each body with itself unless a filter forbids it.
     everything: Vec<Pair>,
-    /// Each body with itself.
+    /// Pairs of each body with itself.
     within: Vec<(BodyId, Vec<[u32; 2]>)>,
     /// Two bodies by name, in either order, whatever filters say.
     of_two: Vec<[BodyId; 2]>,
     pairs_of_two: Vec<Vec<[u32; 2]>>,
 }
 
-/// Asks everything about these bodies, and two of them by name; *first* must be one of *all*.
+/// Asks for everything about these bodies, and about two of them by name.
+///
+/// Asserts that *first* is one of *all*.
 fn ask<S: Scalar>(world: &mut World<S>, ids: &[BodyId], two: [usize; 2]) -> Answers {
     let first = world.intersections(Selection::World).first().unwrap();
     let between_all = world
@@ -73,7 +77,7 @@ fn ask<S: Scalar>(world: &mut World<S>, ids: &[BodyId], two: [usize; 2]) -> Answ
     }
 }
 
-/// The answers of a world that was never anything else, with the ids of the one that lives.
+/// Answers of a world built fresh, with the ids of the world that lives.
 fn fresh_answers<S: Scalar>(
     options: Options,
     known: &[Known<S>],
@@ -116,7 +120,7 @@ fn fresh_answers<S: Scalar>(
     answers
 }
 
-/// Whether a world that lives answers as one that was made of what is known, twice without movement between.
+/// Asserts that a world that lives answers as a fresh one, twice without movement between.
 fn assert_fresh<S: Scalar>(
     world: &mut World<S>,
     known: &[Known<S>],
@@ -158,7 +162,8 @@ fn check_lives<S: Scalar>(seeds: std::ops::Range<u64>, shift: f64, convert: fn(f
         let mut random = Lcg(seed);
         let options = configurations[random.below(configurations.len() as u32) as usize];
         let (triangles, flat) = sheet(3 + random.below(4));
-        // Now and then everything is far away, and comes back: in f64 the origin of the boxes follows.
+        // Now and then everything is far away, and comes back. In `f64` the origin of the boxes
+        // follows.
         let mut here = 0.0;
         let place = |positions: &[[f32; 3]], here: f64| -> Vec<[S; 3]> {
             positions
@@ -173,7 +178,7 @@ fn check_lives<S: Scalar>(seeds: std::ops::Range<u64>, shift: f64, convert: fn(f
             let some = (!known.is_empty()).then(|| random.below(known.len() as u32) as usize);
             match (random.below(18), some) {
                 (13, _) => here = if here == 0.0 { shift } else { 0.0 },
-                // The world goes on as its copy; what becomes of the one is nothing to the other.
+                // The world goes on as its copy, and changes to the original do not reach the copy.
                 (15, _) => {
                     let copy = world.clone();
                     for body in &known {
@@ -231,7 +236,7 @@ fn check_lives<S: Scalar>(seeds: std::ops::Range<u64>, shift: f64, convert: fn(f
                     }
                 }
                 (7, Some(some)) => world.rebuild(known[some].id).unwrap(),
-                // Another mesh, or the one that it has.
+                // A body gets another mesh, or its own again.
                 (16..=17, Some(some)) => {
                     let body = &mut known[some];
                     let (mut triangles, flat) = sheet(2 + random.below(5));
@@ -259,7 +264,7 @@ fn check_lives<S: Scalar>(seeds: std::ops::Range<u64>, shift: f64, convert: fn(f
                         world.unignore(pair.1, pair.0).unwrap();
                         ignored.retain(|&(a, b)| (a, b) != pair && (b, a) != pair);
                     } else {
-                        // A body with itself, perhaps.
+                        // The two may be the same body.
                         world.ignore(pair.0, pair.1).unwrap();
                         ignored.push(pair);
                     }
@@ -328,7 +333,7 @@ fn a_world_that_lives_answers_like_one_built_fresh_f64() {
     check_lives::<f64>(80..120, 1e7, |x| x);
 }
 
-/// Boxes that were made relative to one origin are not true relative to another.
+/// Boxes that were made relative to one origin are not valid relative to another.
 #[test]
 fn f64_boxes_follow_the_origin() {
     let at = |s: f64, t: f64| {
@@ -397,7 +402,7 @@ fn a_body_that_did_not_move_costs_nothing() {
         let boxes = |s: pliant::Statistics| s.boxes_bottom_up + s.boxes_top_down + s.triangle_boxes;
         assert!(boxes(one) > 0 && boxes(one) < boxes(both), "{options:?}");
 
-        // What `prepare` does early is not done again, and is accounted for.
+        // Boxes that `prepare` makes early are not made again, and are counted.
         world.set_positions(moving, &tilted).unwrap();
         world.intersections(Selection::World).prepare().unwrap();
         world
@@ -409,7 +414,7 @@ fn a_body_that_did_not_move_costs_nothing() {
     }
 }
 
-/// Every way to be stale that has a name, one after another.
+/// Every situation in which boxes may be stale, by name, one after another.
 #[expect(clippy::too_many_lines, reason = "one paragraph a name")]
 fn check_by_name<S: Scalar>(convert: fn(f32) -> S) {
     // Sheets that cross: one flat, the others on edge, at different places along it.
@@ -418,7 +423,7 @@ fn check_by_name<S: Scalar>(convert: fn(f32) -> S) {
         let upright = |&[u, v, _]: &[f32; 3]| [x + v / 8.0, u, v - 0.4].map(convert);
         flat.iter().map(upright).collect()
     };
-    // Folded over, so that it meets itself, and crosses the flat one.
+    // A sheet folded over, so that it meets itself, and crosses the flat one.
     let folded: Vec<[S; 3]> = flat
         .iter()
         .map(|&[u, v, _]| {
@@ -431,7 +436,7 @@ fn check_by_name<S: Scalar>(convert: fn(f32) -> S) {
         })
         .collect();
     let flat: Vec<[S; 3]> = flat.iter().map(|p| p.map(convert)).collect();
-    // A step that has no factor in common with the number of choices meets every choice of every axis.
+    // 29 has no factor in common with the number of values of any choice, so each value occurs.
     for options in every_configuration().into_iter().step_by(29) {
         let mut world = World::with_options(options);
         let mut known: Vec<Known<S>> = [flat.clone(), on_edge(0.2), on_edge(0.7), on_edge(5.0)]
@@ -461,7 +466,7 @@ fn check_by_name<S: Scalar>(convert: fn(f32) -> S) {
         world.set_positions(known[2].id, &folded).unwrap();
         check(&mut world, &known, "a body moved twice before a query");
 
-        // There and back, with nothing asked or another body asked in between.
+        // There and back, with no question in between, or a question about another body.
         world.set_positions(known[0].id, &on_edge(9.0)).unwrap();
         world.triangles_of(Selection::Within(known[2].id));
         world.set_positions(known[0].id, &flat).unwrap();
@@ -488,7 +493,7 @@ fn check_by_name<S: Scalar>(convert: fn(f32) -> S) {
             .unwrap();
         check(&mut world, &known, "no loose box any more");
 
-        // Each of these takes pairs away, or gives them back: what was found before must not be kept.
+        // Each of these takes pairs away or gives them back: earlier results must not be kept.
         let count =
             |world: &mut World<S>| world.intersections(Selection::World).all().unwrap().len();
         let all = count(&mut world);

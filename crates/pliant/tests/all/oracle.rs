@@ -1,7 +1,8 @@
-//! Pairs of triangles on which a decision is likely to go wrong, against an oracle that computes in big integers and from
-//! another definition: `reference`, which decides every sign exactly, and a moving world, whose filters skip what they can.
+//! Hard pairs of triangles, against an oracle in big integers with another definition.
 //!
-//! Thousands of pairs here; ten million by
+//! The oracle is compared with `reference`, which decides every sign exactly, and with a moving
+//! world, whose filters skip what they can. Thousands of pairs are compared here, and ten million
+//! by
 //!
 //! ```sh
 //! cargo test --release -p pliant --test all oracle:: -- --ignored --nocapture
@@ -12,7 +13,7 @@ use pliant_oracle::{self as oracle, Class, Random, Triangle, contact_kind, fits_
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Two bodies of one triangle, moved from pair to pair.
+/// A world of two bodies with one triangle each, moved from pair to pair.
 struct Moving<S: Scalar> {
     world: World<S>,
     bodies: [BodyId; 2],
@@ -26,7 +27,7 @@ impl<S: Scalar> Moving<S> {
         Self { world, bodies }
     }
 
-    /// What the world says of a pair, and what the reference does: whether they intersect, and how.
+    /// Answers of the world and of the reference for a pair: whether they intersect, and how.
     fn answers(&mut self, pair: [[[S; 3]; 3]; 2]) -> [(bool, oracle::ContactKind); 2] {
         for (&body, triangle) in self.bodies.iter().zip(&pair) {
             self.world.set_positions(body, triangle).unwrap();
@@ -55,7 +56,7 @@ impl<S: Scalar> Moving<S> {
     }
 }
 
-/// What was compared, of one class.
+/// Counters of the pairs compared in one class.
 #[derive(Clone, Copy, Default)]
 struct Tally {
     pairs: u64,
@@ -79,8 +80,8 @@ fn compare(class: Class, seed: u64, count: u64) -> Tally {
         let check = |answers: [(bool, oracle::ContactKind); 2], precision: &str| {
             assert!(
                 answers == [(expected, kind); 2],
-                "{class:?}, seed {seed}, pair {index}, {precision}: the oracle says {kind:?}, world and reference say \
-                 {answers:?}\n{pair:?}\n{}",
+                "{class:?}, seed {seed}, pair {index}, {precision}: \
+                 the oracle says {kind:?}, world and reference say {answers:?}\n{pair:?}\n{}",
                 in_bits(&pair),
             );
         };
@@ -135,9 +136,9 @@ fn thousands_of_pairs() {
     );
 }
 
-/// Pairs that once were decided wrongly, in bits: corner by corner, the first triangle first.
+/// Pairs that once were decided wrongly, as bits: corner by corner, the first triangle first.
 const FOUND: [[u64; 18]; 1] = [
-    // n . t overflows in single precision, and its error bound does not.
+    // The dot product n . t overflows in single precision, and its error bound does not.
     [
         0xc0d7_6000_0000_0000,
         0xc0e6_c000_0000_0000,
@@ -173,7 +174,7 @@ fn pairs_that_once_were_wrong() {
     }
 }
 
-/// 16 classes of 640,000 pairs, a tenth of a class at a time in either of two threads.
+/// Ten million pairs: 16 classes of 640,000, a tenth of a class at a time in each of two threads.
 #[test]
 #[ignore = "minutes; see the head of this file"]
 fn ten_million_pairs() {
@@ -193,7 +194,8 @@ fn ten_million_pairs() {
         } = tally;
         let seconds = time.as_secs_f64();
         println!(
-            "{name:<16}{pairs:>11}{meeting:>11}{crossing:>11}{overlapping:>12}{as_f32:>11}{by_exact_arithmetic:>11}{seconds:>9.1}"
+            "{name:<16}{pairs:>11}{meeting:>11}{crossing:>11}{overlapping:>12}{as_f32:>11}\
+             {by_exact_arithmetic:>11}{seconds:>9.1}"
         );
     };
     let begin = Instant::now();

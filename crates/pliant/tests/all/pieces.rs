@@ -1,11 +1,11 @@
-//! Split into components and fused again, cut and welded: nothing that is found is lost, and numbers lead back to what was there.
+//! Splitting into components, fusing, cutting and welding: no hit is lost, and numbers lead back.
 
 use crate::common::{Lcg, sheet};
 use pliant::{BodyId, ErrorKind, Pair, Selection, World};
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Sheets of some sizes one above the other, as one mesh: triangles and vertices in an order that mixes them.
+/// Sheets of these sizes one above the other, as one mesh with triangles and vertices shuffled.
 fn sheets(random: &mut Lcg, sides: &[u32]) -> (Vec<[u32; 3]>, Vec<[f32; 3]>) {
     let (mut triangles, mut positions) = (Vec::new(), Vec::new());
     for (height, &side) in sides.iter().enumerate() {
@@ -23,7 +23,7 @@ fn sheets(random: &mut Lcg, sides: &[u32]) -> (Vec<[u32; 3]>, Vec<[f32; 3]>) {
     (triangles, positions)
 }
 
-/// Pairs of triangles by the numbers that they had in one body.
+/// Pairs of triangles, by the numbers that they had in one body.
 fn found(world: &mut World<f32>, number: impl Fn(BodyId, u32) -> u32) -> BTreeSet<[u32; 2]> {
     let pairs = world.intersections(Selection::Everything).all().unwrap();
     let named = |pair: &Pair| {
@@ -55,7 +55,7 @@ fn split_and_fused_again_it_finds_what_it_found() {
     let pieces = world.split(body).unwrap();
     assert_eq!(pieces.len(), 3);
     assert_eq!(world.bodies().len(), 5);
-    // The largest stays: that of the sheet of side 9.
+    // The largest component stays in the body: the sheet of side 9.
     let live = world.live_triangles(body).unwrap();
     let largest = components[live.iter().position(|&is| is).unwrap()];
     assert!(
@@ -92,7 +92,7 @@ fn split_and_fused_again_it_finds_what_it_found() {
     world.validate().unwrap();
     assert!(world.split(body).unwrap().is_empty());
 
-    // Back again, one by one: numbers follow through both.
+    // Fused again, one by one: numbers follow through both calls.
     let mut names: Vec<u32> = (0..triangles.len() as u32).collect();
     for piece in &pieces {
         let fused = world.fuse(body, piece.body).unwrap();
@@ -166,7 +166,7 @@ fn what_was_cut_is_welded() {
     let (triangles, positions) = sheet(6);
     let mut world = World::<f32>::new();
     let body = world.add(&triangles, &positions).unwrap();
-    // Along a line of vertices, off it both ways: every vertex of the column splits.
+    // Cut along a line of vertices, and once off it: every vertex of the column splits.
     let is_left = |corners: &[u32; 3]| {
         let x = |vertex: &u32| positions[*vertex as usize][0];
         corners.iter().map(x).sum::<f32>() / 3.0 < 0.5
@@ -199,7 +199,7 @@ fn what_was_cut_is_welded() {
         "the two sides touch"
     );
 
-    // A little apart, and up to the distance that they are apart.
+    // A little apart: welded at a tolerance equal to their distance.
     let mut apart = world.positions(body).unwrap();
     for &vertex in &edited.new_vertices {
         apart[vertex as usize][2] = 0.125;
@@ -219,7 +219,7 @@ fn what_was_cut_is_welded() {
     }
 }
 
-/// Two triangles, each with corners of its own, that share a side but for so much; the square is so large.
+/// Two triangles of a square with sides `size`, whose common side is `off` apart.
 fn nearly_joined(world: &mut World<f64>, off: [f64; 3], size: f64) -> pliant::BodyId {
     let [x, y, z] = off;
     let square = [
@@ -236,7 +236,7 @@ fn nearly_joined(world: &mut World<f64>, off: [f64; 3], size: f64) -> pliant::Bo
 #[test]
 fn the_tolerance_of_a_weld_is_exact_at_every_scale() {
     let mut world = World::<f64>::new();
-    // Nothing else is known of what two roundings do to squares of these.
+    // Squares of these distances round to 0 or to the smallest number, which says nothing of them.
     let apart = nearly_joined(&mut world, [1.5e-162, 0.0, 0.0], 1e-160);
     assert_eq!(world.weld(apart, 0.0).unwrap(), pliant::Edited::default());
     assert_eq!(
@@ -267,7 +267,7 @@ fn the_tolerance_of_a_weld_is_exact_at_every_scale() {
     }
 }
 
-/// Ended at any look, a weld has changed nothing; else it does what it does without a question.
+/// An interrupted weld has changed nothing; if it is not interrupted, the question changes nothing.
 #[test]
 fn a_weld_can_be_interrupted() {
     let triangles: Vec<[u32; 3]> = (0..3_000)

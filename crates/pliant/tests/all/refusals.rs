@@ -46,7 +46,7 @@ fn bodies_that_cannot_be_made() {
     );
 }
 
-/// The limit is looked at before any triangle is.
+/// The limit is checked before any triangle is read.
 #[test]
 #[ignore = "3 GB of address space, untouched"]
 fn more_triangles_than_numbers() {
@@ -273,7 +273,7 @@ fn an_empty_world_has_no_pairs() {
     world.validate().unwrap();
 }
 
-/// All that a world answers.
+/// All answers of a world.
 #[derive(Clone, Debug, PartialEq)]
 struct Answers {
     bodies: Vec<(BodyId, usize, usize)>,
@@ -318,13 +318,13 @@ fn answers<S: Scalar>(world: &mut World<S>) -> Answers {
     }
 }
 
-/// A call that must be refused, and what it is about.
+/// A call that must be refused, with its description.
 type Bad<S> = (
     &'static str,
     Box<dyn Fn(&mut World<S>, BodyId) -> Result<(), Error>>,
 );
 
-/// Every call that takes something, with everything bad that it can be given. The body has 16 vertices.
+/// Every call with arguments, with every bad argument that it can get. The body has 16 vertices.
 #[expect(clippy::too_many_lines, reason = "one entry a bad call")]
 fn bad_calls<S: Scalar>(convert: fn(f64) -> S) -> Vec<Bad<S>> {
     let (triangles, flat) = sheet(4);
@@ -444,7 +444,7 @@ fn refused_calls_change_nothing<S: Scalar>(convert: fn(f64) -> S) {
         let place = |&[x, y, _]: &[f32; 3]| [x, y, tilt * (x - 0.4)].map(|x| convert(f64::from(x)));
         flat.iter().map(place).collect()
     };
-    // One that meets itself: every triangle twice, over vertices of its own.
+    // A body that meets itself: every triangle twice, over vertices of its own.
     let doubled: Vec<[u32; 3]> = triangles
         .iter()
         .flat_map(|&corners| [corners, corners.map(|vertex| vertex + 16)])
@@ -460,7 +460,7 @@ fn refused_calls_change_nothing<S: Scalar>(convert: fn(f64) -> S) {
         let before = answers(&mut world);
         assert!(before.pairs.len() > 10 && !before.itself[2].is_empty());
         for (place, (name, call)) in calls.iter().enumerate() {
-            // Refused twice in a row, and once when boxes are to be made anew.
+            // Refused twice in a row: with valid boxes, and when boxes have to be made anew.
             for moved in [false, true] {
                 if moved {
                     world.set_positions(body, &shape(1.0)).unwrap();
@@ -491,7 +491,7 @@ fn no_refused_call_changes_an_answer() {
     refused_calls_change_nothing::<f64>(|x| x);
 }
 
-/// No id means a body that is gone, however many came and went; nor does an id of a larger world.
+/// An id means no other body once its own is gone, nor does an id of a larger world.
 #[test]
 fn ids_of_removed_bodies_stay_refused() {
     let (triangles, positions) = sheet(3);
@@ -571,7 +571,7 @@ fn the_ends_of_every_option() {
     }
 }
 
-/// Bodies that are hard on a tree: nothing but one point, the ends of the range, numbers that hardly are.
+/// Bodies that are hard on a tree: all in one point, at the ends of the range, tiny numbers.
 fn check_nasty_shapes<S: Scalar>(convert: fn(f64) -> S) {
     let largest = f64::from(f32::MAX);
     let tiny = f64::from(f32::from_bits(1));
@@ -637,7 +637,7 @@ fn shapes_that_are_hard_on_a_tree() {
     check_nasty_shapes::<f64>(|x| x);
 }
 
-/// What the reference refuses is what a world refuses.
+/// The reference refuses exactly what a world refuses.
 #[test]
 fn the_reference_refuses_the_same() {
     let flat = [[0.0_f64; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
@@ -650,7 +650,7 @@ fn the_reference_refuses_the_same() {
         (&[[0, 1, u32::MAX]], &flat),
     ];
     for (triangles, positions) in cases {
-        // As text: a NaN in an error does not equal itself.
+        // Compared as text, since a NaN in an error does not equal itself.
         let text = |refused: Result<Vec<[u32; 2]>, Error>| refused.unwrap_err().to_string();
         let error = World::new()
             .add(triangles, positions)
@@ -675,12 +675,12 @@ fn crossing() -> (World<f32>, [BodyId; 2]) {
     (world, bodies)
 }
 
-/// Unwinds without a message.
+/// Unwinds without printing a message.
 fn panic_of_the_callers() -> ! {
     resume_unwind(Box::new("the caller's"))
 }
 
-/// A panic of the caller's, in the middle of a call, loses nothing either.
+/// A panic in the caller's code, in the middle of a call, loses nothing.
 #[test]
 fn a_caller_that_panics() {
     let (mut world, [a, b]) = crossing();

@@ -1,4 +1,4 @@
-//! A second kind of query, asked in the middle of a step, leaves valid what the first has made: sets of boxes stay apart.
+//! A second kind of query in the middle of a step leaves the first kind's boxes valid.
 
 use pliant::{Degree, Options, Scalar, Selection, Update, World};
 use std::num::{NonZeroU32, NonZeroUsize};
@@ -35,7 +35,7 @@ fn check<S: Scalar>(options: Options, of: fn(f64) -> S) {
                 world.set_positions(body, &positions).unwrap();
             }
         }
-        // Half a query, in the middle of which others are asked, twice with other boxes.
+        // Half a query; then others are asked in the middle of it, twice with other sets of boxes.
         for world in [&mut both, &mut one] {
             let first = world.intersections(Selection::World).first();
             assert!(first.unwrap().is_some());
@@ -49,7 +49,8 @@ fn check<S: Scalar>(options: Options, of: fn(f64) -> S) {
                 assert!(near > 0);
             }
         }
-        // As many boxes are made as where nobody else asked, and the same is found.
+        // As many boxes are made as in a world where nobody else asked, and the same hits are
+        // found.
         let found = both.intersections(of).all().unwrap().to_vec();
         assert!(!found.is_empty());
         assert_eq!(found, one.intersections(of).all().unwrap());

@@ -1,4 +1,4 @@
-//! The number of threads changes nothing but time: not the pairs, not their order, not the counters.
+//! The number of threads changes only time: not the pairs, their order or the counters.
 
 use crate::common::TrianglesOf;
 use pliant::{Degree, Options, Pair, Partition, Selection, Statistics, Update, World};
@@ -6,9 +6,9 @@ use pliant_scenes::Scene;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::ops::ControlFlow;
 
-/// What a visitor saw in order, of bodies with each other and of one with itself.
+/// Pairs in the order that a visitor saw: of bodies with each other, and of one with itself.
 type Visited = (Vec<Pair>, Vec<[u32; 2]>);
-/// That, all pairs of either kind, the first pair, and what each took.
+/// Visited pairs, all pairs of the same two queries, the first pair, and counters of each query.
 type Seen = (Visited, Visited, Option<Pair>, Vec<Statistics>);
 
 fn play(scene: &Scene, steps: &[u32], mut options: Options, threads: usize) -> Vec<Seen> {
@@ -59,7 +59,7 @@ fn play(scene: &Scene, steps: &[u32], mut options: Options, threads: usize) -> V
     steps.iter().map(|&step| see(&mut world, step)).collect()
 }
 
-/// Different trees and updates.
+/// Options with different trees and updates.
 fn all_options() -> [Options; 4] {
     let two_at_once = Update::Hybrid {
         level: Some(1),
@@ -92,7 +92,9 @@ fn pairs_order_and_counters_do_not_depend_on_threads() {
     }
 }
 
-/// All pairs of many bodies, and what it took; some steps without a body that was there before, or with a much larger one.
+/// All pairs of many bodies, and the counters of each query.
+///
+/// Some steps have one body fewer than before, or a much larger one.
 fn play_crowd(scene: &Scene, large: &Scene, options: Options) -> Vec<(Vec<Pair>, Statistics)> {
     let mut world = World::<f32>::with_options(options);
     let mut positions = Vec::new();
@@ -109,7 +111,7 @@ fn play_crowd(scene: &Scene, large: &Scene, options: Options) -> Vec<(Vec<Pair>,
             scene.positions(body, step, &mut positions);
             world.set_positions(id, &positions).unwrap();
         }
-        // Now and then each body with itself as well.
+        // At every twentieth step each body against itself, too.
         let of = if step.is_multiple_of(20) {
             Selection::Everything
         } else {

@@ -1,12 +1,14 @@
-//! The paper's point, in counted work rather than time: how many boxes each update makes.
+//! Counted work, not time: how many boxes each update makes, which is the paper's point.
 
 use crate::common::TrianglesOf;
 use pliant::{Degree, Options, Partition, Scalar, Selection, Statistics, Update, World};
 use pliant_scenes::Scene;
 use std::num::NonZeroU32;
 
-/// The first 50 steps of the two spheres, both bodies updated in every step as the paper's implementation does it, whether
-/// their boxes overlap or not. Returns the work of all steps and the boxes of one complete update.
+/// Work of the first 50 steps of the two spheres, and the number of boxes in one complete update.
+///
+/// As in the paper's implementation, both bodies are updated in every step, whether or not their
+/// boxes overlap.
 fn first_50_steps(options: Options) -> (Statistics, u64) {
     let scene = Scene::new("spheres", None, Scene::DEFAULT_SEED).unwrap();
     let mut positions = Vec::new();
@@ -15,11 +17,12 @@ fn first_50_steps(options: Options) -> (Statistics, u64) {
         scene.positions(body, 1, &mut positions);
         world.add(scene.triangles(body), &positions).unwrap()
     });
-    // A body is updated if its box overlaps that of another: of a needle, which is the box of one triangle and does not move.
+    // A body is updated if its box overlaps another's. The needle has a box round everything: one
+    // triangle that does not move.
     let needle = [[-9.0; 3], [9.0; 3], [9.0; 3]];
     let needle = world.add(&[[0, 1, 2]], &needle).unwrap();
     world.intersections(Selection::World).prepare().unwrap();
-    // What was made so far is accounted for here.
+    // Boxes made so far are counted here, and not in the steps.
     world
         .intersections(Selection::Within(needle))
         .all()
@@ -59,7 +62,8 @@ fn in_easy_steps_the_hybrid_makes_a_small_part_of_the_boxes() {
         let (hybrid, _) = boxes(Update::HYBRID);
         let (top_down, _) = boxes(Update::TopDown);
         eprintln!(
-            "{:?}: of {complete} boxes, 50 steps: bottom-up {bottom_up}, hybrid {hybrid}, top-down {top_down}",
+            "{:?}: of {complete} boxes, 50 steps: \
+             bottom-up {bottom_up}, hybrid {hybrid}, top-down {top_down}",
             options.partition
         );
         assert_eq!(
@@ -116,7 +120,9 @@ fn f64_boxes_are_as_tight_far_from_the_origin() {
     assert!(near > 10_000);
 }
 
-/// Deep trees are built, updated and traversed without recursion: on a stack that any recursion by level would leave.
+/// Deep trees are built, updated and traversed without recursion.
+///
+/// The stack is so small that any recursion by level would overflow it.
 #[test]
 fn a_deep_tree_needs_no_stack() {
     // Triangles at 2^0, 2^-1, 2^-2, ...: the box centre parts one from the rest each time.
@@ -155,7 +161,7 @@ fn a_deep_tree_needs_no_stack() {
         .unwrap();
 }
 
-/// Triangles that no rule can tell apart are divided evenly, so that the tree is no deeper than it must be.
+/// Triangles that no rule can tell apart are divided evenly, so that the tree stays shallow.
 #[test]
 fn triangles_in_one_place_make_a_shallow_tree() {
     let place = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0_f32]];
@@ -175,7 +181,9 @@ fn triangles_in_one_place_make_a_shallow_tree() {
     }
 }
 
-/// A box is cut along its longest side, or its two longest: a row of triangles along any axis is halved, not its thickness.
+/// A box is cut along its longest side, or its two longest.
+///
+/// So a row of triangles along any axis is halved along the row, not across its thickness.
 #[test]
 fn the_longest_sides_are_cut() {
     for axis in 0..3 {
@@ -199,7 +207,8 @@ fn the_longest_sides_are_cut() {
             options.degree = degree;
             let mut world = World::with_options(options);
             let body = world.add(&triangles, &positions).unwrap();
-            // Cutting the row in halves is what needs six levels; a degree above two splits the zigzag on the way.
+            // Halving the row takes six levels; a degree above two also splits the zigzag on the
+            // way.
             let found = world.tree_shape(body).unwrap().depth;
             assert!(
                 if degree == Degree::Two {
@@ -213,8 +222,10 @@ fn the_longest_sides_are_cut() {
     }
 }
 
-/// Meshes that lie in one place have a pair for every two triangles. The first is found after a few, a visitor stops the work,
-/// and memory does not grow with the pairs.
+/// Meshes that lie in one place have a pair for every two triangles.
+///
+/// The first pair is found after a few, a visitor stops the work, and memory does not grow with the
+/// number of pairs.
 #[test]
 fn the_first_of_very_many_pairs_is_found_at_once() {
     let (count, place) = (
@@ -253,13 +264,13 @@ fn the_first_of_very_many_pairs_is_found_at_once() {
                 }
             });
             assert!(stopped.unwrap().is_break());
-            // What is decided ahead of the visitor is bounded: 4,096 pairs of blocks of eight triangles.
+            // Work ahead of the visitor is bounded: 4,096 pairs of blocks of eight triangles.
             assert!(world.statistics().candidate_pairs < 50_000 + 4096 * 64 + 100_000);
         }
     }
 }
 
-/// In the order in which they came or the other way round.
+/// Thousands of bodies are removed, in the order in which they came or the other way round.
 #[test]
 fn thousands_of_bodies_go() {
     let place = |i: u32| {
@@ -283,7 +294,9 @@ fn thousands_of_bodies_go() {
     }
 }
 
-/// `cargo test --release -p pliant --test all work:: -- --ignored --nocapture`: half a minute and some gigabytes.
+/// Ten million triangles: half a minute and some gigabytes.
+///
+/// `cargo test --release -p pliant --test all work:: -- --ignored --nocapture`
 #[test]
 #[ignore = "large"]
 fn ten_million_triangles() {
@@ -319,7 +332,9 @@ fn ten_million_triangles() {
     stack.spawn(all).unwrap().join().unwrap();
 }
 
-/// The lid of a cylinder as a fan, and a mesh that lies in one point: the triangles round a vertex are not met by the square.
+/// Triangles round one vertex are not met quadratically.
+///
+/// Meshes are the lid of a cylinder as a fan, and a mesh that lies in one point.
 #[test]
 fn triangles_round_one_vertex_cost_no_more_than_others() {
     const COUNT: u32 = 40_000;
@@ -340,12 +355,12 @@ fn triangles_round_one_vertex_cost_no_more_than_others() {
         let found = world.intersections(Selection::Within(body)).all().unwrap();
         assert!(found.is_empty(), "all share a vertex");
         let work = *world.statistics();
-        // By the square it would be 12 million pairs of leaves.
+        // Quadratic work would be 12 million pairs of leaves.
         assert!(work.node_pairs < u64::from(COUNT), "{work:?}");
     }
 }
 
-/// Two fans that cross, as one body and as two.
+/// Two fans that cross, as one body and as two bodies.
 #[test]
 fn fans_of_one_body_meet_each_other() {
     const COUNT: u32 = 2_000;

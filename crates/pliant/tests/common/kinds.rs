@@ -1,10 +1,10 @@
-//! Every kind of query that the library's registry lists, asked alike.
+//! Every kind of query in the library's registry, behind one interface.
 
 use pliant::{Error, Query, Scalar, Selection, World};
 use std::fmt::Debug;
 use std::ops::ControlFlow;
 
-/// How much is wanted of a query.
+/// How a query is run: all hits, the first, a visit, or preparation alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Wanted {
     All,
@@ -13,7 +13,7 @@ pub(crate) enum Wanted {
     Prepare,
 }
 
-/// A method of a world that asks for hits, by its name.
+/// A method of `World` that asks for hits, with its name.
 pub(crate) struct AnyKind<S: Scalar> {
     pub(crate) name: &'static str,
     /// Whether it takes a length: a margin or a distance.
@@ -24,7 +24,7 @@ pub(crate) struct AnyKind<S: Scalar> {
 type Answer = Result<(), Error>;
 
 impl<S: Scalar> AnyKind<S> {
-    /// Shows every hit, as long as it is there. Allocates nothing.
+    /// Calls `show` with every hit, which is borrowed for the call. Allocates nothing.
     pub(crate) fn show(
         &self,
         world: &mut World<S>,
@@ -35,7 +35,7 @@ impl<S: Scalar> AnyKind<S> {
         (self.ask)(world, (of, length), wanted, show)
     }
 
-    /// Hits as text, which is the same only if all numbers in them are to the last bit.
+    /// Hits as text. Two texts are equal only if all numbers in them are equal to the last bit.
     pub(crate) fn texts(
         &self,
         world: &mut World<S>,

@@ -1,4 +1,4 @@
-//! What the integration tests share: every configuration, and small bodies to try them on.
+//! Shared by the integration tests: every configuration, and small bodies to try them on.
 
 #![allow(dead_code, reason = "each test uses its part")]
 
@@ -10,12 +10,12 @@ use pliant::{
 use std::collections::BTreeSet;
 use std::num::NonZeroU32;
 
-/// How much of something long a test goes through: all of it if the environment variable THOROUGH is set, else one part in so many.
+/// The size of a long test: `all` if the environment variable `THOROUGH` is set, else `all / of`.
 pub(crate) fn share(all: usize, of: usize) -> usize {
     if is_thorough() { all } else { all / of }
 }
 
-/// Whether tests take all there is, which is more than every commit has to wait for.
+/// Whether tests run in full, which takes longer than every commit can wait for.
 pub(crate) fn is_thorough() -> bool {
     std::env::var_os("THOROUGH").is_some()
 }
@@ -27,7 +27,8 @@ pub(crate) struct Motion {
     pub(crate) frames: Vec<Vec<[f32; 3]>>,
 }
 
-/// How many values each choice has that a configuration is made of: degree, partition, leaf size, update, broad phase.
+/// How many values each choice of a configuration has: degree, partition, leaf size, update, broad
+/// phase.
 pub(crate) const CHOICES: [usize; 5] = [3, 4, 4, 6, 3];
 
 /// The configuration with these values of the five choices.
@@ -64,7 +65,7 @@ fn configuration(values: &[usize]) -> Options {
     options
 }
 
-/// Every degree, partition, leaf size and update, each with brute force and with another broad phase.
+/// Every degree, partition, leaf size and update, each with brute force and another broad phase.
 pub(crate) fn every_configuration() -> Vec<Options> {
     let with_two = |(place, values): (usize, Vec<usize>)| {
         // Sweep and prune and the tree take turns: what they find does not depend on the rest.
@@ -74,7 +75,8 @@ pub(crate) fn every_configuration() -> Vec<Options> {
     combinations.flat_map(with_two).collect()
 }
 
-/// Some configurations, in which every pair of values of two choices occurs; or every one there is, if tests are thorough.
+/// Configurations in which every two values of two choices occur together; if thorough, all of
+/// them.
 pub(crate) fn covering_configurations() -> Vec<Options> {
     if is_thorough() {
         return every_configuration();
@@ -83,7 +85,7 @@ pub(crate) fn covering_configurations() -> Vec<Options> {
     covering.map(|values| configuration(&values)).collect()
 }
 
-/// All combinations of a value of each choice, the last of which changes fastest.
+/// All combinations of one value of each choice; the last choice changes fastest.
 pub(crate) fn combinations(choices: &[usize]) -> Vec<Vec<usize>> {
     let combination = |mut number: usize| {
         let mut values = vec![0; choices.len()];
@@ -96,16 +98,17 @@ pub(crate) fn combinations(choices: &[usize]) -> Vec<Vec<usize>> {
     (0..choices.iter().product()).map(combination).collect()
 }
 
-/// Pairs of values that a combination has: of which two choices, and which values.
+/// Pairs of values in a combination, each as two choices and their values.
 pub(crate) fn value_pairs(values: &[usize]) -> impl Iterator<Item = [usize; 4]> {
     let two = (0..values.len()).flat_map(move |a| (a + 1..values.len()).map(move |b| [a, b]));
     two.map(|[a, b]| [a, b, values[a], values[b]])
 }
 
-/// A covering array: a few combinations, in which every two choices have every pair of their values.
+/// Covering array of strength two: combinations in which every two choices have all pairs of
+/// values.
 ///
-/// Most faults show with one value or with two together (Kuhn, Wallace and Gallo 2004). Each combination is one
-/// that has the most of the pairs that are missing still.
+/// Most faults show with one value or with two together (Kuhn, Wallace and Gallo 2004). Greedy:
+/// each combination has the most of the pairs that are still missing.
 pub(crate) fn covering(choices: &[usize]) -> Vec<Vec<usize>> {
     let all = combinations(choices);
     let mut missing: BTreeSet<[usize; 4]> = all.iter().flat_map(|it| value_pairs(it)).collect();
@@ -124,7 +127,7 @@ pub(crate) fn covering(choices: &[usize]) -> Vec<Vec<usize>> {
     chosen
 }
 
-/// Whether every two of these choices have every pair of their values among the combinations.
+/// Whether every two choices have every pair of their values in one of the combinations.
 pub(crate) fn covers_every_pair(choices: &[usize], combinations: &[Vec<usize>]) -> bool {
     let sizes = choices.iter().enumerate();
     let mut two = sizes
@@ -136,7 +139,7 @@ pub(crate) fn covers_every_pair(choices: &[usize], combinations: &[Vec<usize>]) 
     })
 }
 
-/// The same values, exactly.
+/// Positions in double precision, exactly the same values.
 pub(crate) fn widened(positions: &[[f32; 3]]) -> Vec<[f64; 3]> {
     positions
         .iter()
@@ -144,7 +147,7 @@ pub(crate) fn widened(positions: &[[f32; 3]]) -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// A world with these bodies at their first frame.
+/// A world of these bodies, each with its triangles and positions.
 pub(crate) fn world_of<S: Scalar>(
     options: Options,
     bodies: &[(&[[u32; 3]], Vec<[S; 3]>)],
@@ -157,12 +160,12 @@ pub(crate) fn world_of<S: Scalar>(
     (world, ids)
 }
 
-/// The pairs of two bodies, or of one with itself, whose bodies are known.
+/// Pairs of triangles of two bodies, or of one with itself, without the bodies.
 pub(crate) trait TrianglesOf {
-    /// All of them.
+    /// All pairs of the selection.
     fn triangles_of(&mut self, of: Selection) -> Vec<[u32; 2]>;
 
-    /// Some of them.
+    /// Any one pair of the selection.
     fn first_of(&mut self, of: Selection) -> Option<[u32; 2]>;
 }
 
@@ -185,7 +188,7 @@ impl<S: Scalar> TrianglesOf for World<S> {
     }
 }
 
-/// A small deterministic source of numbers.
+/// Linear congruential generator: the same numbers for the same seed.
 pub(crate) struct Lcg(pub(crate) u64);
 
 impl Lcg {
@@ -197,13 +200,13 @@ impl Lcg {
         (self.0 >> 33) as u32 % range
     }
 
-    /// In [0, 1), a multiple of 2^-20.
+    /// A number in [0, 1), a multiple of 2^-20.
     pub(crate) fn unit(&mut self) -> f32 {
         self.below(1 << 20) as f32 / (1 << 20) as f32
     }
 }
 
-/// A flat square sheet of 2 (side - 1)^2 triangles in the plane z = 0, of edge length 1.
+/// A flat square sheet in the plane z = 0, one unit wide, of 2 (side - 1)^2 triangles.
 pub(crate) fn sheet(side: u32) -> (Vec<[u32; 3]>, Vec<[f32; 3]>) {
     let mut triangles = Vec::new();
     for y in 0..side - 1 {

@@ -1,29 +1,34 @@
-//! A response to close pairs: elements of the cloth and of the ball are put as far apart as the cloth is thick, again and again until all
-//! are.
+//! Response to close pairs: cloth and ball are put one thickness apart, in rounds.
 
 use super::{FRICTION, Simulation, THICK};
 use glam::Vec3;
 use pliant::{Error, Selection};
 
-const ROUNDS: usize = 50; // at most, to put everything apart
+/// Rounds over all contacts of a step, at most.
+const ROUNDS: usize = 50;
 
-/// A point of the cloth, its corners and their shares in it, that is too close to one of the ball.
+/// A contact: a point of the cloth that is too close to a point of the ball.
 struct Contact {
+    /// The vertices of the cloth that the point is a mean of.
     corners: [u32; 3],
+    /// The weight of each of these vertices.
     shares: [f32; 3],
+    /// The point of the ball.
     there: Vec3,
-    /// From the ball to the cloth.
+    /// Unit vector from the ball to the cloth.
     normal: Vec3,
 }
 
-/// The point of a triangle with these shares of its corners.
+/// The point of a triangle with these barycentric coordinates.
 fn at(points: &[Vec3], corners: [u32; 3], shares: [f32; 3]) -> Vec3 {
     let [a, b, c] = corners.map(|corner| points[corner as usize]);
     shares[0] * a + shares[1] * b + shares[2] * c
 }
 
 impl Simulation {
-    /// One time step after which the cloth is [`THICK`] away from the ball; returns how many elements were too close.
+    /// Moves one time step, after which the cloth is [`THICK`] away from the ball.
+    ///
+    /// Returns how many elements were too close.
     pub(crate) fn step_apart(&mut self) -> Result<usize, Error> {
         self.move_bodies()?;
         let swing = self.swing();
@@ -102,7 +107,7 @@ impl Simulation {
                 break;
             }
         }
-        // What was put apart goes with the ball from now on, but for some of its sliding.
+        // From now on it goes with the ball, except for some of its sliding.
         for ((point, before), normal) in cloth.points.iter().zip(&mut cloth.before).zip(normals) {
             if let Some(normal) = normal {
                 let sliding = (*point - *before - swing).reject_from_normalized(normal);

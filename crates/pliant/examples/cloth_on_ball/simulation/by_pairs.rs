@@ -1,13 +1,14 @@
-//! A response to pairs of triangles: corners of the cloth are pushed out of the triangles of the ball that they meet, and rub.
+//! Response to pairs of triangles: corners of the cloth are pushed out of the ball, with friction.
 
 use super::{FRICTION, Simulation};
 use glam::Vec3;
 use pliant::{Error, Pair, Selection};
 
-const THICKNESS: f32 = 0.0005; // so high above the ball do contacts put points
+/// The height above the ball at which a contact puts points, in metres.
+const THICKNESS: f32 = 0.0005;
 
 impl Simulation {
-    /// One time step; returns how many pairs of triangles met.
+    /// Moves one time step. Returns how many pairs of triangles met.
     pub(crate) fn step(&mut self) -> Result<usize, Error> {
         // The application moves the bodies ...
         self.move_bodies()?;
@@ -31,7 +32,7 @@ impl Simulation {
                 let (point, before) = (&mut cloth.points[corner], &mut cloth.before[corner]);
                 let depth = THICKNESS - (*point - a).dot(normal);
                 if depth > 0.0 {
-                    // From now on it goes with the ball, but for some of its sliding.
+                    // From now on it goes with the ball, except for some of its sliding.
                     let sliding = (*point - *before - swing).reject_from_normalized(normal);
                     *point += depth * normal - FRICTION * sliding;
                     *before = *point - swing - (1.0 - FRICTION) * sliding;

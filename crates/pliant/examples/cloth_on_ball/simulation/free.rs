@@ -1,9 +1,10 @@
-//! Nothing gets through, in steps that are longer than the cloth is thick: everything goes as far as `free_step` proves that it may, and
-//! what is left of the step is planned anew from there.
+//! Response by free steps: longer than the cloth is thick, and nothing gets through.
 //!
-//! What is close is a constraint on where the rest of the step is to end, whatever its sides are of: vertices, triangles, edges, of the
-//! cloth and of the ball. Such constraints are linear, some hold only roughly, and what was not close at first has none: so the plan may
-//! be wrong, and then the step that is taken is short. It is never wrong.
+//! Everything goes as far as [`World::free_step`](pliant::World::free_step) proves that it may. The
+//! rest of the step is planned anew from there. In a plan each close pair is a linear constraint on
+//! where the rest of the step ends. Some constraints hold only roughly, and a pair that was not
+//! close at first has none. So a plan may be wrong: then the step that is taken is short, but never
+//! wrong.
 
 use super::{FRICTION, Simulation, THICK, centre, give_length};
 use glam::Vec3;
@@ -11,24 +12,25 @@ use pliant::{BodyId, Error, InContact, Selection};
 
 pub(crate) const FREE_STEPS_A_SECOND: usize = 30;
 const FREE_STEP: f32 = 1.0 / FREE_STEPS_A_SECOND as f32;
-/// Nothing comes nearer than this, ever.
+/// The least distance that is ever reached, in metres.
 pub(crate) const GAP: f64 = 0.1 * THICK as f64;
-/// What is so close makes a constraint.
+/// The distance from which on a pair makes a constraint, in metres.
 const CLOSE: f64 = 2.0 * THICK as f64;
-/// At most so often a step is planned anew; what is left then is left out: all wait.
+/// Plans of one step, at most; the motion that is left then is dropped, and all wait.
 const PLANS: usize = 20;
-const ROUNDS: usize = 20; // over all constraints of a plan
+/// Rounds over all constraints of a plan.
+const ROUNDS: usize = 20;
 
-/// Two points that are close, each a mean of corners.
+/// A contact: two points that are close, each a mean of vertices.
 struct Contact {
-    /// Body, vertex, and its share: of the one point positive, of the other negative.
+    /// Body, vertex and weight: positive for the one point, negative for the other.
     corners: Vec<(BodyId, u32, f32)>,
-    /// From the other to the one.
+    /// Unit vector from the other point to the one.
     normal: Vec3,
 }
 
 impl Simulation {
-    /// One time step; returns how often it was planned.
+    /// Moves one time step. Returns how many plans it took.
     pub(crate) fn step_free(&mut self) -> Result<usize, Error> {
         let begin = self.cloth.points.clone();
         let fall = 9.81 * FREE_STEP * FREE_STEP * Vec3::Z;
@@ -68,7 +70,8 @@ impl Simulation {
             self.world.set_motion(self.ball.body, &ends(&ball_at_end))?;
             // ... and the library how far on the way everything may go.
             let step = self.world.free_step(Selection::Everything, GAP)?;
-            // At the poles of the ball its own elements are nearer to each other than that, always.
+            // At the poles of the ball its own elements are always nearer to each other than the
+            // gap.
             let intersects = matches!(step.begins_in_contact, Some(InContact::Triangles(_)));
             assert!(!intersects, "{step:?}");
             self.world.advance_motion(step.t)?;
@@ -82,7 +85,7 @@ impl Simulation {
         Ok(plans)
     }
 
-    /// What the cloth is close to: the ball, and itself.
+    /// The close pairs of the cloth, with the ball and with itself.
     fn contacts(&mut self) -> Result<Vec<Contact>, Error> {
         let mut contacts = Vec::new();
         let (cloth, ball) = (&self.cloth, &self.ball);
@@ -127,7 +130,9 @@ impl Simulation {
 }
 
 impl Contact {
-    /// Puts the corners of the cloth where the two points are as far apart as it is thick; notes the normals of the ball where they are.
+    /// Moves vertices of the cloth until the two points are [`THICK`] apart.
+    ///
+    /// Where the contact is with the ball, its normal is noted for each vertex that has none yet.
     fn push_apart(
         &self,
         cloth: BodyId,

@@ -1,4 +1,4 @@
-//! The cloth, the ball and how they move; what is done where they meet is in three files, three ways.
+//! Cloth, ball and how they move. The three responses to contact are a file each.
 
 mod apart;
 mod by_pairs;
@@ -17,15 +17,17 @@ pub(crate) const STEPS_A_SECOND: usize = 240;
 const STEP: f32 = 1.0 / STEPS_A_SECOND as f32;
 pub(crate) const RADIUS: f32 = 0.5;
 const SIDE: f32 = 1.6;
-/// So far from the ball the cloth is kept by [`Simulation::step_apart`], and sought to be by [`Simulation::step_free`].
+/// Thickness of the cloth in metres: [`Simulation::step_apart`] keeps it, [`Simulation::step_free`]
+/// aims at it.
 pub(crate) const THICK: f32 = 0.02;
-const FRICTION: f32 = 0.9; // how much of its sliding a point in contact loses in a step
+/// The share of its sliding that a point in contact loses in a step.
+const FRICTION: f32 = 0.9;
 
 pub(crate) struct Surface {
     body: BodyId,
     triangles: Vec<[u32; 3]>,
     points: Vec<Vec3>,
-    /// Where the points of the cloth were a step ago, and those of the ball at first.
+    /// Points of the cloth one step ago, or points of the ball at the start.
     before: Vec<Vec3>,
 }
 
@@ -33,9 +35,9 @@ pub(crate) struct Simulation {
     world: World<f32>,
     pub(crate) cloth: Surface,
     pub(crate) ball: Surface,
-    /// Two points of the cloth and their distance.
+    /// Two points of the cloth and their distance at rest.
     edges: Vec<([usize; 2], f32)>,
-    /// Those of the cloth and of the ball, as the library numbers them.
+    /// The edges of cloth and ball as the library numbers them, each as its two vertices.
     numbered: [Vec<[u32; 2]>; 2],
     pub(crate) steps: usize,
     /// Seconds.
@@ -43,8 +45,10 @@ pub(crate) struct Simulation {
 }
 
 impl Surface {
-    /// A surface over the unit square: so many squares on a side, each cut in two. If it is closed, each side of the square is folded in
-    /// its middle, and of two points that come together one is left.
+    /// Adds a surface over the unit square: `squares` on a side, each cut into two triangles.
+    ///
+    /// If it is closed, each side of the square is folded in its middle. Of two points that come
+    /// together one is left.
     fn add(
         world: &mut World<f32>,
         squares: u32,
@@ -104,12 +108,12 @@ impl Surface {
     }
 }
 
-/// Where the ball is after so many seconds.
+/// Centre of the ball after this many seconds.
 fn centre(time: f32) -> Vec3 {
     0.15 * Vec3::new(1.0 - (3.0 * time).cos(), (2.0 * time).sin(), 0.0)
 }
 
-/// Puts the ends of each edge where it has its length.
+/// Moves the ends of each edge until it has its length at rest.
 fn give_length(edges: &[([usize; 2], f32)], points: &mut [Vec3]) {
     for &([a, b], rest) in edges {
         let apart = points[b] - points[a];
@@ -152,7 +156,7 @@ impl Simulation {
         })
     }
 
-    /// The application moves the bodies.
+    /// Moves the bodies, as the application does: the cloth falls, the ball swings.
     fn move_bodies(&mut self) -> Result<(), Error> {
         let (cloth, ball) = (&mut self.cloth, &mut self.ball);
         for (point, before) in cloth.points.iter_mut().zip(&mut cloth.before) {
@@ -172,32 +176,33 @@ impl Simulation {
         ball.show(&mut self.world)
     }
 
-    /// How far the ball went in this step.
+    /// How far the ball moved in this step.
     fn swing(&self) -> Vec3 {
         centre(self.time) - centre(self.time - STEP)
     }
 
-    /// How far the cloth is from the ball.
+    /// Distance of the cloth from the ball.
     pub(crate) fn gap(&mut self) -> Result<f64, Error> {
         let (cloth, ball) = (self.cloth.body, self.ball.body);
         let nearest = self.world.distance(cloth, ball, f64::from(SIDE))?;
         Ok(nearest.map_or(f64::INFINITY, |nearest| nearest.distance))
     }
 
-    /// Whether anything intersects now, the cloth with itself too.
+    /// Whether anything intersects, the cloth with itself included.
     pub(crate) fn intersects(&mut self) -> Result<bool, Error> {
         let pairs = self.world.intersections(Selection::Everything);
         Ok(pairs.first()?.is_some())
     }
 
-    /// How deep the deepest point of the cloth is inside the ball; negative: how far the nearest is outside.
+    /// Depth of the deepest point of the cloth in the ball; negated distance of the nearest if none
+    /// is.
     pub(crate) fn depth(&self) -> f32 {
         let inside = |point: &Vec3| RADIUS - point.distance(centre(self.time));
         let depths = self.cloth.points.iter().map(inside);
         depths.fold(f32::NEG_INFINITY, f32::max)
     }
 
-    /// How far the middle of the cloth is above the middle of the ball.
+    /// Height of the cloth's middle above the ball's.
     pub(crate) fn height(&self) -> f32 {
         self.cloth.points[self.cloth.points.len() / 2].z - centre(self.time).z
     }

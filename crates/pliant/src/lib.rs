@@ -138,6 +138,8 @@ pub use queries::hits::*;
 pub use selection::Selection;
 pub use statistics::Statistics;
 #[doc(hidden)]
+pub use threads::RecordedPart;
+#[doc(hidden)]
 pub use world::pair_impacts;
 pub use world::{
     FreeStep, Fused, InContact, Interruptible, Piece, Query, Scalar, World, edge_edge_impacts,

@@ -404,7 +404,14 @@ impl<S: Coordinate> Body<S> {
 
     /// Read-only view of one part for the tasks of a query; all that they read was made ready.
     pub(crate) fn view(&self, needs: &Needs, origin: Origin, part: usize) -> Option<View<'_, S>> {
-        let Self { mesh, shape, motion, parts, filter, .. } = self;
+        let Self {
+            mesh,
+            shape,
+            motion,
+            parts,
+            filter,
+            ..
+        } = self;
         let part = parts.all().nth(part)?.for_reading(needs.box_set)?;
         Some(Queried::of((mesh, shape, motion, filter), needs, origin).side(part))
     }
@@ -416,9 +423,21 @@ impl<S: Coordinate> Body<S> {
         needs: &Needs,
         origin: Origin,
     ) -> (&'b mut Parts, impl Fn(&'b mut Part) -> Side<'b, S>) {
-        let Self { mesh, shape, motion, parts, filter, .. } = self;
-        let (queried, set) = (Queried::of((mesh, shape, motion, filter), needs, origin), needs.box_set);
-        (parts, move |part: &'b mut Part| queried.side(part.for_query(set)))
+        let Self {
+            mesh,
+            shape,
+            motion,
+            parts,
+            filter,
+            ..
+        } = self;
+        let (queried, set) = (
+            Queried::of((mesh, shape, motion, filter), needs, origin),
+            needs.box_set,
+        );
+        (parts, move |part: &'b mut Part| {
+            queried.side(part.for_query(set))
+        })
     }
 
     /// Makes all boxes stale: an interruption may have left some half made.

@@ -34,4 +34,3 @@ pub use debug_view::{NodeBox, TreeShape};
 pub(crate) use list::Bodies;
 pub(crate) use mesh::Places;
 pub(crate) use rebuild::Work;
-pub(crate) use shape::Staged;

@@ -46,10 +46,6 @@ impl<'q, 's, K: Kind> Answer<'q, 's, K> {
         list.broke_at = None;
         Self { kind, list, sink }
     }
-
-    pub(crate) fn kind(&self) -> &'q K {
-        self.kind
-    }
 }
 
 impl<K: Kind> Tasks<K::Scalar> for Answer<'_, '_, K> {
@@ -79,14 +75,18 @@ impl<K: Kind> Tasks<K::Scalar> for Answer<'_, '_, K> {
 
     fn run(&mut self, executor: Executor, count: usize, work: TaskWork<K::Scalar>) {
         let (kind, collector) = (self.kind, self.sink.collector());
-        executor.run(&mut self.list.tasks[..count], u64::MAX, |_, (task, results)| {
-            let mut bound = Bound {
-                kind,
-                collector,
-                results,
-            };
-            work(task, &mut bound);
-        });
+        executor.run(
+            &mut self.list.tasks[..count],
+            u64::MAX,
+            |_, (task, results)| {
+                let mut bound = Bound {
+                    kind,
+                    collector,
+                    results,
+                };
+                work(task, &mut bound);
+            },
+        );
     }
 
     fn show(&mut self, count: usize, statistics: &mut Statistics) -> ControlFlow<()> {

@@ -55,7 +55,9 @@ fn measure<S: Coordinate, H: InBodies>(
     };
     measured.clear();
     measured.extend(hits.iter().map(|&hit| hit.unmeasured()));
-    let jobs = hits.chunks(Grain::MEASURED.items).zip(measured.chunks_mut(Grain::MEASURED.items));
+    let jobs = hits
+        .chunks(Grain::MEASURED.items)
+        .zip(measured.chunks_mut(Grain::MEASURED.items));
     let work = |(hits, measured): &mut (&[H], &mut [H::Close])| {
         let mut known: Option<([BodyId; 2], [Places<S>; 2])> = None;
         let corners = |hit: H| {

@@ -19,7 +19,6 @@ use crate::threads::{Exchange, Executor, Grain, PerThread, locked};
 use crate::traversal::{
     Item, PairOf, Piece, Round, Scratch, Tasks, TreePair, View, leaves_left_out,
 };
-use crate::tree::BoxSet;
 use crate::update::{DirtySet, Partner, Refit};
 use std::iter;
 use std::ops::ControlFlow;
@@ -177,12 +176,16 @@ impl Together {
         let (partners, helpers) = (&self.partners, &mut self.helpers);
         let partner = |place: usize| partners.get(place).copied().flatten();
         let takes = Grain::TRIANGLES.time(triangles);
-        each_body(step, bodies, helpers, (count, takes), &|step, place, body| {
-            match partner(place) {
+        each_body(
+            step,
+            bodies,
+            helpers,
+            (count, takes),
+            &|step, place, body| match partner(place) {
                 Some(partner) => step.prepare(body, partner),
                 None => ControlFlow::Continue(()),
-            }
-        })
+            },
+        )
     }
 
     /// Lists all pairs of trees, and the pairs of their roots.
@@ -197,7 +200,9 @@ impl Together {
         listed.clear();
         looked_at.clear();
         looked_at.resize(pairs.len(), [0; 2]);
-        [&mut items.nodes, &mut items.leaves, &mut items.now].map(Vec::clear);
+        for list in [&mut items.nodes, &mut items.leaves, &mut items.now] {
+            list.clear();
+        }
         let trees_of = |place: Place| {
             let first = trees.partition_point(|&(at, _)| at.index() < place.index());
             first..first + bodies.at(place).part_count()
@@ -212,7 +217,11 @@ impl Together {
             let are_several = of_a.len() + of_b.len() > 2;
             for tree_a in of_a {
                 // Of one body every two trees once, and each with itself.
-                let others = if a == b { tree_a..of_b.end } else { of_b.clone() };
+                let others = if a == b {
+                    tree_a..of_b.end
+                } else {
+                    of_b.clone()
+                };
                 for tree_b in others {
                     let both = [tree_a, tree_b];
                     if tree_a == tree_b || !are_several || do_overlap(both) {
@@ -277,7 +286,7 @@ impl Together {
             };
             Some((pair, both))
         };
-        let exchange = &Exchange::new(used);
+        let exchange = &Exchange::new(executor, used);
         let round = Round {
             needs,
             instructions: step.refit.instructions,
@@ -320,13 +329,19 @@ impl Together {
         bodies: &mut Bodies<S>,
     ) -> ControlFlow<()> {
         let (trees, helpers) = (&self.trees, &mut self.helpers);
-        refit(step, bodies, (trees, &self.stale), helpers, &|step, body, part, stale| {
-            let (needs, origin) = (step.needs, step.origin);
-            let lists = &mut step.scratch.wide_nodes;
-            let mut side = body.side(&needs, origin, part);
-            let refitted = &mut side.refitted();
-            step.refit.reached(refitted, stale, lists, step.statistics);
-        })
+        refit(
+            step,
+            bodies,
+            (trees, &self.stale),
+            helpers,
+            &|step, body, part, stale| {
+                let (needs, origin) = (step.needs, step.origin);
+                let lists = &mut step.scratch.wide_nodes;
+                let mut side = body.side(&needs, origin, part);
+                let refitted = &mut side.refitted();
+                step.refit.reached(refitted, stale, lists, step.statistics);
+            },
+        )
     }
 
     /// Makes the boxes of the triangles in leaves that were reached.
@@ -336,12 +351,19 @@ impl Together {
         bodies: &mut Bodies<S>,
     ) -> ControlFlow<()> {
         let (trees, helpers) = (&self.trees, &mut self.helpers);
-        refit(step, bodies, (trees, &self.reached), helpers, &|step, body, part, reached| {
-            let (needs, origin) = (step.needs, step.origin);
-            let mut side = body.side(&needs, origin, part);
-            let refitted = &mut side.refitted();
-            step.refit.reached_leaves(refitted, reached, step.statistics);
-        })
+        refit(
+            step,
+            bodies,
+            (trees, &self.reached),
+            helpers,
+            &|step, body, part, reached| {
+                let (needs, origin) = (step.needs, step.origin);
+                let mut side = body.side(&needs, origin, part);
+                let refitted = &mut side.refitted();
+                step.refit
+                    .reached_leaves(refitted, reached, step.statistics);
+            },
+        )
     }
 
     /// Tells bodies how much was looked at, from which they know how their trees have decayed.
@@ -396,17 +418,23 @@ fn refit<S: Coordinate>(
         return ControlFlow::Continue(());
     }
     let takes = Grain::LEAVES.time(reached);
-    each_body(step, bodies, helpers, (count, takes), &|step, place, body| {
-        let first = trees.partition_point(|&(at, _)| at.index() < place);
-        let own = of_trees().skip(first);
-        for (&(_, part), set) in own.take_while(|&(&(at, _), _)| at.index() == place) {
-            let set = &mut *locked(set);
-            if !set.is_empty() {
-                make(step, body, part, set);
+    each_body(
+        step,
+        bodies,
+        helpers,
+        (count, takes),
+        &|step, place, body| {
+            let first = trees.partition_point(|&(at, _)| at.index() < place);
+            let own = of_trees().skip(first);
+            for (&(_, part), set) in own.take_while(|&(&(at, _), _)| at.index() == place) {
+                let set = &mut *locked(set);
+                if !set.is_empty() {
+                    make(step, body, part, set);
+                }
             }
-        }
-        ControlFlow::Continue(())
-    })
+            ControlFlow::Continue(())
+        },
+    )
 }
 
 /// Does something with every body: many of them side by side, each on one thread; few of them one

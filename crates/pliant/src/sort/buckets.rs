@@ -270,7 +270,9 @@ impl<T: Send, F: Fn(u64) -> T + Copy + Sync> Job<'_, F> {
             return;
         }
         let mut runs = cut(&parts, made, &mut scratch[..runs]);
-        executor.run(&mut runs, nanoseconds, |_, run| self.put_run_in_order(&parts, run));
+        executor.run(&mut runs, nanoseconds, |_, run| {
+            self.put_run_in_order(&parts, run)
+        });
     }
 
     /// Spreads the keys of a part into buckets.

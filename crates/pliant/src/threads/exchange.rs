@@ -4,23 +4,27 @@
 //! left. Invariant: nothing is lost, and all end only when nobody has anything. Use it where the
 //! order of work changes no answer.
 
-use super::{Backoff, locked};
+use super::record::Recorder;
+use super::{Backoff, Executor, locked};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What was given and is not taken yet, for a number of workers.
-pub(crate) struct Exchange<T> {
+pub(crate) struct Exchange<'q, T> {
     given: Mutex<Vec<T>>,
     /// Workers that have something to do.
     busy: AtomicUsize,
     /// Workers that wait for something.
     idle: AtomicUsize,
+    /// Takes the times of pieces of work; then one thread does all, and none waits.
+    recorder: Option<&'q Recorder>,
 }
 
-impl<T> Exchange<T> {
+impl<'q, T> Exchange<'q, T> {
     /// For so many workers, each of which has work of its own at first.
-    pub(crate) fn new(workers: usize) -> Self {
+    pub(crate) fn new(executor: Executor<'q>, workers: usize) -> Self {
         Self {
+            recorder: executor.threads.recorder.as_ref(),
             given: Mutex::default(),
             busy: AtomicUsize::new(workers),
             idle: AtomicUsize::new(0),
@@ -31,6 +35,14 @@ impl<T> Exchange<T> {
     #[inline]
     pub(crate) fn is_wanted(&self) -> bool {
         self.idle.load(Ordering::Relaxed) > 0
+    }
+
+    /// A piece of work is done, and the rest could be given to others.
+    #[inline]
+    pub(crate) fn mark(&self) {
+        if let Some(recorder) = self.recorder {
+            recorder.mark();
+        }
     }
 
     /// Gives work to others.
@@ -57,7 +69,7 @@ impl<T> Exchange<T> {
                     break true;
                 }
             }
-            if is_last || !backoff.waits() {
+            if is_last || self.recorder.is_some() || !backoff.waits() {
                 break false;
             }
         };
@@ -79,7 +91,7 @@ mod tests {
             let threads = &Threads::private(NonZeroUsize::new(count).unwrap());
             let interrupt = &Interrupt::default();
             let executor = Executor { threads, interrupt };
-            let exchange = &Exchange::new(count);
+            let exchange = &Exchange::new(executor, count);
             let mut workers = vec![(Vec::new(), 0_u64); count];
             workers[0].0.push(14_u32);
             executor.run(&mut workers, u64::MAX, |_, (stack, done)| {

@@ -74,7 +74,9 @@ impl Helpers {
                 })
             })
             .collect();
-        self.help(shares.len() - 1, &|own| do_all(&shares, own % shares.len(), work));
+        self.help(shares.len() - 1, &|own| {
+            do_all(&shares, own % shares.len(), work)
+        });
     }
 
     /// Has so many helpers do something, and the calling thread too; tells each the number of its

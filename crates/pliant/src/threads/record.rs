@@ -32,8 +32,10 @@ pub(super) struct Recorder {
 
 #[derive(Default)]
 struct Log {
-    /// When the last part ended.
+    /// When the last part, or piece of work, ended.
     since: u64,
+    /// Times of the pieces of the part that is going on.
+    jobs: Vec<u64>,
     parts: Vec<RecordedPart>,
 }
 
@@ -41,46 +43,48 @@ impl Recorder {
     pub(super) fn new(count: NonZeroUsize, clock: Clock) -> Self {
         let log = Mutex::new(Log {
             since: clock(),
-            parts: Vec::new(),
+            ..Log::default()
         });
         Self { count, clock, log }
     }
 
     /// Does all jobs, and takes their times.
-    pub(super) fn run<J>(
-        &self,
-        jobs: &mut [J],
-        most_threads: usize,
-        work: &dyn Fn(usize, &mut J),
-    ) {
-        let mut now = (self.clock)();
-        let serial = now - locked(&self.log).since;
-        let mut times = Vec::with_capacity(jobs.len());
+    pub(super) fn run<J>(&self, jobs: &mut [J], most_threads: usize, work: &dyn Fn(usize, &mut J)) {
+        let serial = self.lap();
         for (number, job) in jobs.iter_mut().enumerate() {
             work(number, job);
-            let end = (self.clock)();
-            times.push(end - now);
-            now = end;
+            self.mark();
         }
-        let mut log = locked(&self.log);
+        let log = &mut *locked(&self.log);
+        let jobs = std::mem::take(&mut log.jobs);
         log.parts.push(RecordedPart {
             serial,
-            jobs: times,
+            jobs,
             most_threads,
         });
-        log.since = (self.clock)();
+    }
+
+    /// A piece of a job ends here, the rest of which another thread could have done.
+    pub(super) fn mark(&self) {
+        let time = self.lap();
+        locked(&self.log).jobs.push(time);
+    }
+
+    /// The time since the last lap.
+    fn lap(&self) -> u64 {
+        let now = (self.clock)();
+        let log = &mut *locked(&self.log);
+        now - std::mem::replace(&mut log.since, now)
     }
 
     /// What was recorded since the last call; its last part has no jobs.
     pub(super) fn take(&self) -> Vec<RecordedPart> {
-        let mut log = locked(&self.log);
-        let now = (self.clock)();
-        let mut parts = std::mem::take(&mut log.parts);
+        let serial = self.lap();
+        let mut parts = std::mem::take(&mut locked(&self.log).parts);
         parts.push(RecordedPart {
-            serial: now - log.since,
+            serial,
             ..RecordedPart::default()
         });
-        log.since = now;
         parts
     }
 }

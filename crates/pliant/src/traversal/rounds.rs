@@ -49,7 +49,7 @@ pub(crate) struct Round<'q, S> {
     pub(crate) needs: Needs,
     pub(crate) instructions: Instructions,
     pub(crate) interrupt: &'q Interrupt<'q>,
-    pub(crate) exchange: &'q Exchange<Item>,
+    pub(crate) exchange: &'q Exchange<'q, Item>,
     /// The pair of trees of a number, and the numbers of these trees.
     pub(crate) pair: PairOf<'q, S>,
 }
@@ -131,6 +131,7 @@ impl Task {
             }
             let looked_at = [self.walk.found.node_pairs, work.candidates() - before];
             self.share.looked_at.push((pair, looked_at));
+            round.exchange.mark();
             if !work.has_room() || round.interrupt.is_set() {
                 // There are too many hits, or nobody wants them any more.
                 self.share.todo.clear();
@@ -173,6 +174,7 @@ impl Task {
                 self.share.leaves.extend(leaves.map(item));
                 self.forget_leaves();
             }
+            round.exchange.mark();
             let nodes = &mut self.walk.found.nodes;
             let stack = nodes.len();
             if stack == 0 || context.interrupt.is_set() || !work.has_room() {
@@ -225,7 +227,8 @@ impl Task {
     ) {
         let neighbours = left_out(&context.needs, context.pair);
         while self.share.todo.len() > first {
-            let Some(Piece::Run([start, end])) = self.share.todo.pop().map(|item| item.piece) else {
+            let Some(Piece::Run([start, end])) = self.share.todo.pop().map(|item| item.piece)
+            else {
                 continue;
             };
             let Some(neighbours) = neighbours else {

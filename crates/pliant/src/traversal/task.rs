@@ -145,7 +145,7 @@ impl Task {
     pub(super) fn walk_on<S: Coordinate>(
         &mut self,
         context: &Context<S>,
-        exchange: Option<&Exchange<Item>>,
+        exchange: Option<&Exchange<'_, Item>>,
     ) {
         let needs = &context.needs;
         let sides = context.pair.sides();

@@ -50,7 +50,6 @@ impl<S: Coordinate> Side<'_, S> {
             source: &self.source,
         }
     }
-
 }
 
 impl<S: Coordinate, B: Deref<Target = BoxSet>> Side<'_, S, B> {

@@ -50,7 +50,11 @@ impl Refit<'_> {
             leaves: 0,
             triangles: 0,
         };
-        let nanoseconds = if executor.are_many() { Grain::LEAVES.time(reached.count()) } else { 0 };
+        let nanoseconds = if executor.are_many() {
+            Grain::LEAVES.time(reached.count())
+        } else {
+            0
+        };
         let work = |job: &mut LeafRun| {
             let words = job.words.clone();
             for start in words.clone().step_by(UNINTERRUPTED) {

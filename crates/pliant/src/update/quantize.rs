@@ -53,7 +53,9 @@ fn quantize_all<S: Coordinate>(refit: &Refit, one: &mut Refitted<S>) {
     quantized.units = units;
     let quantized = &mut quantized.blocks;
     quantized.resize_with(blocks.len(), Default::default);
-    let jobs = quantized.chunks_mut(Grain::QUANTIZED.items).zip(blocks.chunks(Grain::QUANTIZED.items));
+    let jobs = quantized
+        .chunks_mut(Grain::QUANTIZED.items)
+        .zip(blocks.chunks(Grain::QUANTIZED.items));
     let make = |(quantized, blocks): &mut (&mut [QuantizedLanes], &[EightBoxes])| {
         dispatch!(refit.instructions, i => {
             for (quantized, block) in quantized.iter_mut().zip(*blocks) {

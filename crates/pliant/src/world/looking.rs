@@ -7,6 +7,8 @@ use crate::bodies::TreeShape;
 use crate::error::Error;
 use crate::ids::BodyId;
 use crate::statistics::Statistics;
+use crate::threads::{Clock, RecordedPart, Threads};
+use std::num::NonZeroUsize;
 
 /// # Looking inside: meshes, trees, work
 impl<S: Scalar> World<S> {
@@ -185,6 +187,19 @@ impl<S: Scalar> World<S> {
     /// it.
     pub fn statistics(&self) -> &Statistics {
         &self.state().common.statistics
+    }
+
+    /// Records jobs from now on: work is cut as for `threads`, done by the calling thread alone, and
+    /// timed by `clock`, in nanoseconds. For benchmarks that replay them on more workers.
+    #[doc(hidden)]
+    pub fn record_jobs(&mut self, threads: NonZeroUsize, clock: Clock) {
+        self.state_mut().common.threads = Threads::recorded(threads, clock);
+    }
+
+    /// Parts that were recorded since the last call.
+    #[doc(hidden)]
+    pub fn take_record(&self) -> Vec<RecordedPart> {
+        self.state().common.threads.take_record()
     }
 
     /// Memory that this world holds, in bytes: bodies, trees, boxes, and lists that queries keep

@@ -152,7 +152,9 @@ impl<const C: usize> RunBoxes<C> {
             });
         };
         self.most = 0.0;
-        executor.run_each(jobs, Grain::RUNS, make, |job| self.most = larger(self.most, job.most));
+        executor.run_each(jobs, Grain::RUNS, make, |job| {
+            self.most = larger(self.most, job.most)
+        });
         if executor.is_interrupted() {
             return false;
         }

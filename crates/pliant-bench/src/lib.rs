@@ -12,10 +12,12 @@
 //! | [`decision`] | triangle against triangle, the same for all: a frozen yardstick |
 //! | [`contest`] | methods play a motion in turns; answers are compared, then times |
 //! | [`experiments`] | the paper's and ours: which motion, which methods, which claims |
+//! | [`cores`] | no contest: what a step gains from more threads |
 //! | [`soak`] | no contest: one long-lived world, compared with worlds built fresh |
 //! | [`time`] | durations as text for people |
 
 pub mod contest;
+pub mod cores;
 pub mod decision;
 pub mod experiments;
 pub mod machine;

@@ -138,7 +138,7 @@ pub use queries::hits::*;
 pub use selection::Selection;
 pub use statistics::Statistics;
 #[doc(hidden)]
-pub use threads::RecordedPart;
+pub use threads::{Clock, RecordedPart};
 #[doc(hidden)]
 pub use world::pair_impacts;
 pub use world::{

@@ -1,5 +1,6 @@
 //! `pliant bench`: compares methods side by side, and tests the paper's claims.
 
+mod cores;
 mod report;
 mod tables;
 
@@ -76,6 +77,7 @@ fn experiments_help() -> String {
     let any_missing = TITLES.iter().any(is_missing);
     let mark = if any_missing { '*' } else { ' ' };
     lines += &line(mark, "all", "everything");
+    lines += &line(' ', cores::NAME, cores::ABOUT);
     if any_missing {
         lines += "\n* with other libraries, which this program was built without; with them:\n";
         lines += "  cargo run --release --features peers -- bench peers\n";
@@ -85,6 +87,15 @@ fn experiments_help() -> String {
 
 /// Runs the chosen experiments and prints their results.
 pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    if arguments.name == cores::NAME {
+        return cores::cores(&cores::Asked {
+            file: arguments.json.as_deref(),
+            rounds: usize::from(arguments.rounds),
+            is_small: arguments.small,
+            is_quiet: arguments.quiet,
+            over: arguments.over,
+        });
+    }
     let asked: Vec<&Title> = TITLES
         .iter()
         .filter(|title| arguments.name == "all" || arguments.name == title.name)
@@ -92,7 +103,7 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if asked.is_empty() {
         let names: Vec<_> = TITLES.iter().map(|title| title.name).collect();
         bail!(
-            "there is no experiment \"{}\"; there are {} and all; choose one of these",
+            "there is no experiment \"{}\"; there are {}, all and cores; choose one of these",
             shown(&arguments.name),
             names.join(", ")
         );

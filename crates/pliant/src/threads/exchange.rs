@@ -4,8 +4,10 @@
 //! left. Invariant: nothing is lost, and all end only when nobody has anything. Use it where the
 //! order of work changes no answer.
 
+use super::Executor;
+use super::lock::locked;
+use super::pool::Backoff;
 use super::record::Recorder;
-use super::{Backoff, Executor, locked};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 

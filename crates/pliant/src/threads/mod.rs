@@ -10,6 +10,7 @@ mod budget;
 mod exchange;
 mod grain;
 mod interrupt;
+mod lock;
 mod per_thread;
 mod pool;
 mod record;
@@ -19,12 +20,13 @@ pub(crate) use exchange::Exchange;
 pub(crate) use grain::Grain;
 use grain::threads_for;
 pub(crate) use interrupt::{Interrupt, Question};
+pub(crate) use lock::locked;
 pub(crate) use per_thread::PerThread;
-use pool::{Backoff, Helpers};
+use pool::Helpers;
 use record::Recorder;
 pub use record::{Clock, RecordedPart};
 use std::num::NonZeroUsize;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 
 /// More threads than anyone has.
 const MOST: usize = 256;
@@ -245,11 +247,6 @@ impl Executor<'_> {
             }
         }
     }
-}
-
-/// Locks a mutex, whatever happened to others that had it.
-pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(test)]

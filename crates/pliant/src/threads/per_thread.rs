@@ -1,6 +1,6 @@
 //! One thing for each thread: what a thread works on without waiting for others.
 
-use super::locked;
+use super::lock::locked;
 use crate::held;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 

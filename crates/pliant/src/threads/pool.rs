@@ -6,7 +6,7 @@
 //! these are done: what a thread wrote in one part it is likely to read in the next. Threads of a
 //! pool that an application has lent are not kept awake.
 
-use super::locked;
+use super::lock::locked;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};

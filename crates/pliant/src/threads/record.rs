@@ -3,7 +3,7 @@
 //! Work is cut as it would be for some number of threads, and done by the calling thread alone. The
 //! clock is the caller's, as the library reads none.
 
-use super::locked;
+use super::lock::locked;
 use std::fmt;
 use std::num::NonZeroUsize;
 use std::sync::{Arc, Mutex};

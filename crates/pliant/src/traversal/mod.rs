@@ -40,6 +40,7 @@ mod descent;
 mod leaf_pairs;
 mod nearest;
 mod rounds;
+mod share;
 mod sink;
 mod task;
 mod tree_pair;
@@ -47,7 +48,8 @@ mod walk;
 
 pub(crate) use descent::{Scratch, descend};
 pub(crate) use nearest::{NearestScratch, gap_square, nearest};
-pub(crate) use rounds::{Item, PairOf, Piece, Round, leaves_left_out};
+pub(crate) use rounds::{PairOf, Round, leaves_left_out};
+pub(crate) use share::{Item, Piece};
 pub(crate) use sink::{Collector, Sink, Visitor};
 pub(crate) use task::{Task, TaskWork, Tasks};
 pub(crate) use tree_pair::{Side, TreePair, View};

@@ -7,14 +7,13 @@
 //! order for visitors: tasks with much to do give some to those that have nothing.
 
 use super::context::{Context, TaskLimits};
+use super::share::{Item, Piece, Share};
 use super::task::{Task, are_free, left_out};
 use super::tree_pair::{TreePair, View};
-use crate::held::held;
 use crate::kernels::{Coordinate, Instructions};
 use crate::queries::{LeafWork, Needs};
 use crate::threads::{Exchange, Interrupt};
 use crate::tree::{BoxSet, LeafPair, NodePair};
-use crate::update::DirtySet;
 
 /// Items of one pair of trees that a task takes at once.
 const AT_ONCE: usize = 512;
@@ -25,24 +24,6 @@ const LIMITS: TaskLimits = TaskLimits {
     block_pairs: 512,
     stack: usize::MAX,
 };
-
-/// Some work of one pair of trees.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Item {
-    /// The number of the pair of trees.
-    pub(crate) pair: u32,
-    pub(crate) piece: Piece,
-}
-
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Piece {
-    /// Two nodes, to be expanded.
-    Nodes(NodePair),
-    /// Two leaves, to be tested; all boxes in them are valid.
-    Leaves(LeafPair),
-    /// A run of leaves, from a first to before an end, to be tested with themselves and their neighbours.
-    Run([u32; 2]),
-}
 
 /// What all tasks of a round work with.
 pub(crate) struct Round<'q, S> {
@@ -58,42 +39,11 @@ pub(crate) struct Round<'q, S> {
 pub(crate) type PairOf<'q, S> =
     &'q (dyn Fn(u32) -> Option<(TreePair<'q, S, &'q BoxSet>, [u32; 2])> + Sync);
 
-/// What a task has of a round, and leaves for the next.
-#[derive(Debug, Default)]
-pub(crate) struct Share {
-    /// What is still to be done.
-    pub(crate) todo: Vec<Item>,
-    /// Pairs of nodes below which boxes are stale.
-    pub(crate) waiting: Vec<Item>,
-    /// Pairs of leaves that are to be tested.
-    pub(crate) leaves: Vec<Item>,
-    /// Wide nodes that are stale, and leaves that were reached, by the numbers of trees.
-    pub(crate) stale: Vec<DirtySet>,
-    pub(crate) reached: Vec<DirtySet>,
-    /// Pairs of nodes and candidates that were looked at, by the numbers of pairs.
-    pub(crate) looked_at: Vec<(u32, [u64; 2])>,
-}
-
 /// How many leaves of a body that meets itself are to be tested with their neighbours, which the
 /// descent leaves out.
 pub(crate) fn leaves_left_out<S: Coordinate>(needs: &Needs, side: View<'_, S>) -> usize {
     let leaves = side.tree.leaves.len();
     left_out(needs, &TreePair::One(side)).map_or(0, |_| leaves)
-}
-
-impl Share {
-    /// Takes what a task has noted of the two trees.
-    fn note(sets: &mut Vec<DirtySet>, noted: &mut [DirtySet; 2], trees: [u32; 2]) {
-        for (tree, noted) in trees.into_iter().zip(noted) {
-            if !noted.is_empty() {
-                let tree = tree as usize;
-                if sets.len() <= tree {
-                    sets.resize_with(tree + 1, DirtySet::default);
-                }
-                sets[tree].take(noted);
-            }
-        }
-    }
 }
 
 impl Task {
@@ -242,5 +192,3 @@ impl Task {
         }
     }
 }
-
-held!(Share: todo[], waiting[], leaves[], stale, reached, looked_at[]);

@@ -5,7 +5,7 @@
 
 use super::context::Context;
 use super::leaf_pairs::{Cursor, LeafTests};
-use super::rounds::{Item, Share};
+use super::share::{Item, Share};
 use super::tree_pair::{TreePair, View};
 use super::walk::{Rules, Walk};
 use crate::held::held;

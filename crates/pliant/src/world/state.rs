@@ -97,6 +97,16 @@ impl<S: Coordinate> State<S> {
         self.mend(id)
     }
 
+    /// Has all threads share so many parts without work.
+    pub(super) fn wait_for_threads(&mut self, parts: u32) {
+        let interrupt = Interrupt::default();
+        let executor = self.common.executor(&interrupt);
+        let mut jobs = vec![(); executor.count()];
+        for _ in 0..parts {
+            executor.run(&mut jobs, u64::MAX, |_, ()| {});
+        }
+    }
+
     /// Validates new shapes of bodies, and takes all of them over or none.
     pub(super) fn move_bodies(&mut self, shapes: &[(BodyId, &[[S; 3]])]) -> Result<(), Error> {
         let bodies = &self.common.bodies;

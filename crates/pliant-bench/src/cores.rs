@@ -1,0 +1,349 @@
+//! Many cores: what a step gains from more threads, measured and predicted.
+//!
+//! Jobs of a step are recorded on one thread, cut as for many, and replayed on any number of workers:
+//! each job goes to the worker that is free first, and a part ends with its last job. A part that
+//! several workers share costs what a wait was measured to cost. So two cores can say what sixteen
+//! would gain, as far as memory and caches keep up.
+
+use pliant::{BodyId, Options, RecordedPart, Selection, World};
+use pliant_scenes::Scene;
+use serde::Serialize;
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Workers of a replay.
+pub const WORKERS: [usize; 5] = [2, 4, 8, 16, 64];
+/// Threads for which work is cut while it is recorded.
+const RECORDED: usize = 64;
+/// Margin of candidates, in mean lengths of an edge.
+const MARGIN: f64 = 0.1;
+/// Parts without work whose waits are timed.
+const WAITS: u32 = 2_000;
+
+/// Scene, triangles a body, and steps: `spheres`, `crowd`, `cloth`, or `gather` with its bodies.
+const SCENES: [(&str, usize, std::ops::Range<u32>); 7] = [
+    ("spheres", 1_280, 190..196),
+    ("spheres", 20_480, 190..196),
+    ("spheres", 327_680, 190..194),
+    ("cloth", 79_202, 40..46),
+    ("cloth", 1_280_000, 40..42),
+    ("crowd", 5_120, 190..196),
+    ("gather", 20, 190..194),
+];
+/// Bodies of `gather`.
+const TINY: usize = 10_000;
+
+/// A question to a world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Question {
+    /// Triangles that intersect.
+    Intersections,
+    /// Vertices near triangles and edges near edges.
+    Candidates,
+    /// The same, within that distance, measured.
+    Close,
+    /// Triangles that intersect, and how.
+    Contacts,
+    /// Elements that meet on the way to the next step.
+    Impacts,
+    /// The first of these.
+    FirstImpact,
+    /// How far everything may go.
+    FreeStep,
+}
+
+/// All questions.
+pub const QUESTIONS: [Question; 7] = [
+    Question::Intersections,
+    Question::Candidates,
+    Question::Close,
+    Question::Contacts,
+    Question::Impacts,
+    Question::FirstImpact,
+    Question::FreeStep,
+];
+
+/// One scene and question, positions and lists included.
+#[derive(Clone, Debug, Serialize)]
+pub struct Measured {
+    /// Scene and size.
+    pub scene: String,
+    /// What was asked.
+    pub question: Question,
+    /// Milliseconds a step on one thread: the median of its rounds.
+    pub one_thread_ms: f64,
+    /// Milliseconds of a step in jobs and between them, by the record.
+    pub work_ms: f64,
+    /// Milliseconds that are left with any number of workers: what is serial, and the longest jobs.
+    pub span_ms: f64,
+    /// Part of the work that no job has.
+    pub serial_share: f64,
+    /// Parts of a step that several workers share.
+    pub parts: usize,
+    /// Times faster that the replay predicts, for [`WORKERS`].
+    pub predicted: Vec<f64>,
+    /// Threads, and times faster that was measured with them.
+    pub measured: Vec<(usize, f64)>,
+}
+
+/// Milliseconds that a part costs which two threads share, for nothing.
+pub fn wait_ms() -> f64 {
+    let mut world = world_of(2);
+    world.wait_for_threads(WAITS / 10);
+    let start = Instant::now();
+    world.wait_for_threads(WAITS);
+    milliseconds(start.elapsed()) / f64::from(WAITS)
+}
+
+/// Measures all scenes and questions, or small ones. `show` is given each as it is known.
+pub fn measure(is_small: bool, rounds: usize, show: &mut dyn FnMut(&Measured)) -> Vec<Measured> {
+    let wait = wait_ms();
+    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let counts = (1..).map(|power| 1 << power);
+    let counts: Vec<usize> = counts.take_while(|&count| count <= cores).collect();
+    let mut all = Vec::new();
+    for (name, triangles, steps) in SCENES {
+        let tiny = if is_small { 50 } else { TINY };
+        let triangles = if is_small {
+            triangles.min(1_280)
+        } else {
+            triangles
+        };
+        let seed = Scene::DEFAULT_SEED;
+        let scene = match name {
+            "gather" => Scene::gather(tiny, triangles, seed),
+            _ => Scene::new(name, Some(triangles), seed),
+        };
+        let scene = scene.expect("a scene that there is");
+        let played = Played::new(&scene, steps);
+        for question in QUESTIONS {
+            let one = played.time(question, 1, rounds);
+            let parts = played.record(question);
+            let steps = played.steps() as f64;
+            let sum = |of: &dyn Fn(&RecordedPart) -> u64| {
+                1e-6 * parts.iter().map(of).sum::<u64>() as f64 / steps
+            };
+            let serial = sum(&|part| part.serial);
+            let work = serial + sum(&|part| part.jobs.iter().sum());
+            let longest = sum(&|part| part.jobs.iter().copied().max().unwrap_or_default());
+            let replayed = |workers| {
+                let parts = parts.iter().map(|part| replay(part, workers, 1e6 * wait));
+                1e-6 * parts.sum::<f64>() / steps
+            };
+            let measured = counts.iter().map(|&count| {
+                let time = played.time(question, count, rounds);
+                (count, one / time)
+            });
+            let measured = Measured {
+                scene: format!("{name} {} x {triangles}", scene.body_count()),
+                question,
+                one_thread_ms: one,
+                work_ms: work,
+                span_ms: serial + longest,
+                serial_share: serial / work,
+                parts: parts.iter().filter(|part| part.most_threads > 1).count() / played.steps(),
+                predicted: WORKERS.map(|workers| work / replayed(workers)).to_vec(),
+                measured: measured.collect(),
+            };
+            show(&measured);
+            all.push(measured);
+        }
+    }
+    all
+}
+
+/// Nanoseconds that a part takes so many workers.
+fn replay(part: &RecordedPart, workers: usize, wait: f64) -> f64 {
+    let workers = workers.min(part.most_threads).max(1);
+    let mut ends = vec![0; workers];
+    for job in &part.jobs {
+        let first = ends.iter_mut().min().expect("at least one worker");
+        *first += job;
+    }
+    let last = ends.into_iter().max().unwrap_or_default();
+    (part.serial + last) as f64 + wait * (workers - 1) as f64
+}
+
+fn milliseconds(time: Duration) -> f64 {
+    1e3 * time.as_secs_f64()
+}
+
+fn world_of(threads: usize) -> World<f32> {
+    let mut options = Options::default();
+    options.threads = NonZeroUsize::new(threads).unwrap_or(NonZeroUsize::MIN);
+    World::with_options(options)
+}
+
+/// Meshes of bodies, their shapes at some steps, and the shapes of the step behind.
+struct Played {
+    meshes: Vec<Vec<[u32; 3]>>,
+    /// By steps, then by bodies.
+    shapes: Vec<Vec<Vec<[f32; 3]>>>,
+    mean_edge: f64,
+}
+
+impl Played {
+    fn new(scene: &Scene, steps: std::ops::Range<u32>) -> Self {
+        let bodies = 0..scene.body_count();
+        let meshes: Vec<_> = bodies
+            .clone()
+            .map(|body| scene.triangles(body).to_vec())
+            .collect();
+        let shape = |body, step| {
+            let mut shape = Vec::new();
+            scene.positions(body, step, &mut shape);
+            shape
+        };
+        let shapes = (steps.start..=steps.end)
+            .map(|step| bodies.clone().map(|body| shape(body, step)).collect());
+        let shapes: Vec<Vec<_>> = shapes.collect();
+        let mean_edge = mean_edge(&meshes, &shapes[0]);
+        Self {
+            meshes,
+            shapes,
+            mean_edge,
+        }
+    }
+
+    fn steps(&self) -> usize {
+        self.shapes.len() - 1
+    }
+
+    /// Milliseconds a step with so many threads: the median over rounds.
+    fn time(&self, question: Question, threads: usize, rounds: usize) -> f64 {
+        let (mut world, bodies) = self.built(world_of(threads));
+        self.play(&mut world, &bodies, question);
+        let mut times: Vec<f64> = (0..rounds)
+            .map(|_| {
+                let start = Instant::now();
+                self.play(&mut world, &bodies, question);
+                milliseconds(start.elapsed()) / self.steps() as f64
+            })
+            .collect();
+        times.sort_unstable_by(f64::total_cmp);
+        times[times.len() / 2]
+    }
+
+    /// Jobs of all steps.
+    fn record(&self, question: Question) -> Vec<RecordedPart> {
+        let (mut world, bodies) = self.built(world_of(1));
+        let start = Instant::now();
+        let clock = Arc::new(move || start.elapsed().as_nanos() as u64);
+        let threads = NonZeroUsize::new(RECORDED).unwrap_or(NonZeroUsize::MIN);
+        world.record_jobs(threads, clock);
+        self.play(&mut world, &bodies, question);
+        world.take_record();
+        self.play(&mut world, &bodies, question);
+        world.take_record()
+    }
+
+    fn built(&self, mut world: World<f32>) -> (World<f32>, Vec<BodyId>) {
+        let meshes = self.meshes.iter().zip(&self.shapes[0]);
+        let added = meshes.map(|(triangles, shape)| world.add(triangles, shape));
+        let bodies = added
+            .map(|body| body.expect("a scene is a world"))
+            .collect();
+        (world, bodies)
+    }
+
+    /// Moves all bodies and asks, at every step.
+    fn play(&self, world: &mut World<f32>, bodies: &[BodyId], question: Question) {
+        for step in 0..self.steps() {
+            let shapes = |step: usize| {
+                let shapes: &Vec<Vec<_>> = &self.shapes[step];
+                bodies.iter().copied().zip(shapes.iter().map(Vec::as_slice))
+            };
+            let now: Vec<_> = shapes(step).collect();
+            world.set_positions_of(&now).expect("shapes of a scene");
+            let moves = [Question::Impacts, Question::FirstImpact, Question::FreeStep];
+            if moves.contains(&question) {
+                for (id, end) in shapes(step + 1) {
+                    world.set_motion(id, end).expect("shapes of a scene");
+                }
+            }
+            ask(world, question, MARGIN * self.mean_edge);
+        }
+    }
+}
+
+/// Asks everything of everybody.
+fn ask(world: &mut World<f32>, question: Question, margin: f64) {
+    let of = Selection::Everything;
+    let count = match question {
+        Question::Intersections => world.intersections(of).all().map(<[_]>::len),
+        Question::Contacts => world.contacts(of).all().map(<[_]>::len),
+        Question::Candidates => world
+            .vertex_triangle_candidates(of, margin / 2.0)
+            .all()
+            .map(<[_]>::len)
+            .and_then(|count| {
+                let edges = world.edge_edge_candidates(of, margin / 2.0).all();
+                edges.map(|edges| count + edges.len())
+            }),
+        Question::Close => world
+            .close_vertex_triangle_pairs(of, margin)
+            .all()
+            .map(<[_]>::len)
+            .and_then(|count| {
+                let edges = world.close_edge_edge_pairs(of, margin).all();
+                edges.map(|edges| count + edges.len())
+            }),
+        Question::Impacts => world
+            .vertex_triangle_impacts(of)
+            .all()
+            .map(<[_]>::len)
+            .and_then(|count| {
+                let edges = world.edge_edge_impacts(of).all();
+                edges.map(|edges| count + edges.len())
+            }),
+        Question::FirstImpact => world
+            .first_impact(of, 1e-6)
+            .map(|found| usize::from(found.is_some())),
+        Question::FreeStep => world.collision_free_step(of, 0.0).map(|_| 0),
+    };
+    std::hint::black_box(count).expect("nothing interrupts it");
+}
+
+/// Mean length of the first sides of triangles.
+fn mean_edge(meshes: &[Vec<[u32; 3]>], shapes: &[Vec<[f32; 3]>]) -> f64 {
+    let (mut sum, mut count) = (0.0, 0);
+    for (triangles, shape) in meshes.iter().zip(shapes) {
+        for &[a, b, _] in triangles {
+            let [a, b] = [a, b].map(|vertex| shape[vertex as usize].map(f64::from));
+            let squares = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b));
+            sum += squares.sum::<f64>().sqrt();
+            count += 1;
+        }
+    }
+    sum / f64::from(count.max(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_replay_gives_jobs_to_who_is_free_first() {
+        let part = RecordedPart {
+            serial: 5,
+            jobs: vec![4, 1, 1, 1, 3],
+            most_threads: 2,
+        };
+        let times = [1, 2, 16].map(|workers| replay(&part, workers, 0.5));
+        assert_eq!(times, [15.0, 11.5, 11.5]);
+    }
+
+    #[test]
+    fn small_scenes_are_measured() {
+        let mut shown = 0;
+        let all = measure(true, 1, &mut |_| shown += 1);
+        assert_eq!(all.len(), SCENES.len() * QUESTIONS.len());
+        assert_eq!(shown, all.len());
+        assert!(
+            all.iter()
+                .all(|one| one.work_ms >= one.span_ms && one.span_ms > 0.0)
+        );
+    }
+}

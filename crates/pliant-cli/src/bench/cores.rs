@@ -1,0 +1,95 @@
+//! `pliant bench cores`: what more threads give, as a table and as JSON.
+
+use super::tables;
+use crate::outcome::Outcome;
+use crate::output::{self, Overwrite};
+use crate::table::table;
+use crate::terminal::print_all;
+use pliant_bench::cores::{Measured, WORKERS, measure, wait_ms};
+use pliant_bench::machine::this_machine;
+use pliant_bench::record::Machine;
+use serde::Serialize;
+use std::path::Path;
+
+/// Name and description, as of an experiment.
+pub(super) const NAME: &str = "cores";
+pub(super) const ABOUT: &str = "more threads: measured, and predicted by a replay of jobs";
+
+/// Beginning of every record, by which the program recognises its own files.
+const RECORD: &str = r#"{"format":1,"cores_of":{"processor":"#;
+
+#[derive(Serialize)]
+struct Record<'a> {
+    format: u32,
+    cores_of: &'a Machine,
+    /// Milliseconds that a part costs which two threads share.
+    wait_ms: f64,
+    workers: [usize; WORKERS.len()],
+    measured: &'a [Measured],
+}
+
+/// What was asked for.
+pub(super) struct Asked<'a> {
+    pub(super) file: Option<&'a Path>,
+    pub(super) rounds: usize,
+    pub(super) is_small: bool,
+    pub(super) is_quiet: bool,
+    pub(super) over: Overwrite,
+}
+
+/// Measures all scenes and questions, and prints their table.
+pub(super) fn cores(asked: &Asked) -> anyhow::Result<Outcome> {
+    if let Some(file) = asked.file {
+        output::prepare(file, RECORD, asked.over)?;
+    }
+    let machine = this_machine();
+    let mut header = vec!["scene", "question", "ms on 1", "serial", "parts", "span ms"];
+    let predicted = WORKERS.map(|workers| format!("x{workers} by replay"));
+    header.extend(predicted.iter().map(String::as_str));
+    header.push("measured");
+    let mut rows = table(&header);
+    let all = measure(asked.is_small, asked.rounds, &mut |one| {
+        rows.add_row(row(one));
+        if !asked.is_quiet {
+            // One line at a time as well: the whole takes minutes.
+            eprintln!("{}, {}", one.scene, name_of(one));
+        }
+    });
+    if !asked.is_quiet {
+        print_all(&format!("{}\n{rows}\n", tables::machine_line(&machine)))?;
+    }
+    if let Some(file) = asked.file {
+        let record = Record {
+            format: 1,
+            cores_of: &machine,
+            wait_ms: wait_ms(),
+            workers: WORKERS,
+            measured: &all,
+        };
+        let text = serde_json::to_string(&record)?;
+        output::write(file, RECORD, asked.over, |out| writeln!(out, "{text}"))?;
+    }
+    Ok(Outcome::Clear)
+}
+
+/// A question as the JSON names it.
+fn name_of(one: &Measured) -> String {
+    format!("{}", serde_json::json!(one.question)).replace('"', "")
+}
+
+fn row(one: &Measured) -> Vec<String> {
+    let times = |times: f64| format!("{times:.2}");
+    let mut row = vec![
+        one.scene.clone(),
+        name_of(one),
+        format!("{:.3}", one.one_thread_ms),
+        format!("{:.0} %", 100.0 * one.serial_share),
+        one.parts.to_string(),
+        format!("{:.3}", one.span_ms),
+    ];
+    row.extend(one.predicted.iter().copied().map(times));
+    let measured = one.measured.iter();
+    let measured = measured.map(|&(threads, faster)| format!("x{threads} {faster:.2}"));
+    row.push(measured.collect::<Vec<_>>().join(", "));
+    row
+}

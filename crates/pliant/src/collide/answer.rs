@@ -1,4 +1,4 @@
-//! What the tasks of a query of one kind find, and where it goes: what stands behind the doors `Tasks` and `LeafWork`.
+//! Hits of a query of one kind, and their way to a sink: implements `Tasks` and `LeafWork`.
 
 use crate::held::{empty, held};
 use crate::queries::{Batch, FoundBy, Kind, LeafTest, LeafWork};
@@ -7,16 +7,17 @@ use crate::threads::Executor;
 use crate::traversal::{Collector, Sink, Task, TaskWork, Tasks};
 use std::ops::ControlFlow;
 
-/// With so many hits a task shows them to a collector, or stops until a visitor has seen them: what all tasks have found takes little memory.
+/// Most hits of a task before it shows them to a collector, or stops until a visitor has seen them.
+/// This bounds the memory of all tasks' hits.
 const MOST_HITS: usize = 2048;
 
-/// The tasks of a kind, kept from query to query.
+/// Tasks of a kind, kept from query to query.
 #[derive(Debug)]
 pub(crate) struct TaskList<K: Kind> {
     tasks: Vec<(Task, Results<K>)>,
-    /// How many of them, from the first on, are in use.
+    /// Number of tasks in use, from the first on.
     used: usize,
-    /// The hit at which a query stopped, in tree order.
+    /// Hit at which a query stopped, in tree order.
     pub(crate) broke_at: Option<K::TreeHit>,
 }
 
@@ -24,21 +25,21 @@ pub(crate) struct TaskList<K: Kind> {
 #[derive(Debug)]
 struct Results<K: Kind> {
     found: FoundBy<K>,
-    /// The hits as the caller numbers things, for a collector; or as a visitor is shown them.
+    /// Hits in the caller's numbering, for a collector. `shown` holds them as a visitor sees them.
     of_caller: Vec<K::Hit>,
     shown: Vec<K::Shown>,
-    /// Whether a collector does not take any more.
+    /// Whether the collector takes no more hits.
     are_too_many: bool,
 }
 
-/// A query on its way.
+/// Query in progress: its kind, its tasks, and the sink of its hits.
 pub(crate) struct Answer<'q, 's, K: Kind> {
     kind: &'q K,
     list: &'q mut TaskList<K>,
     sink: SinkOf<'s, K>,
 }
 
-/// The sink of a kind's hits.
+/// Sink of a kind's hits.
 pub(crate) type SinkOf<'s, K> = Sink<'s, <K as Kind>::Hit, <K as Kind>::Shown>;
 
 impl<'q, 's, K: Kind> Answer<'q, 's, K> {
@@ -55,7 +56,7 @@ impl<K: Kind> Tasks<K::Scalar> for Answer<'_, '_, K> {
 
     fn begin(&mut self, most: usize) {
         let TaskList { tasks, used, .. } = &mut *self.list;
-        // They are left as they were where a visitor stopped, or panicked.
+        // Tasks are left as they were where a visitor stopped, or panicked.
         for (task, results) in &mut tasks[..*used] {
             task.clear();
             results.clear();
@@ -112,7 +113,7 @@ impl<K: Kind> Tasks<K::Scalar> for Answer<'_, '_, K> {
     }
 }
 
-/// What one task has found, with the kind that decides what it finds next.
+/// Hits of one task, bound to the kind that tests its leaves.
 struct Bound<'q, K: Kind> {
     kind: &'q K,
     collector: Option<Collector<'q, K::Hit>>,
@@ -161,7 +162,7 @@ impl<K: Kind> LeafWork<K::Scalar> for Bound<'_, K> {
 }
 
 impl<K: Kind> Results<K> {
-    /// Forgets what was found.
+    /// Clears hits and counters; buffers are kept.
     fn clear(&mut self) {
         self.found.hits.clear();
         self.found.statistics = Statistics::default();

@@ -1,4 +1,5 @@
-//! What a world keeps for one kind of query, and how one is answered: all that is found, or shown to a sink until it breaks.
+//! State of a world for one kind of query, and the ways to ask one: a sorted list, or a sink until
+//! it breaks.
 
 use super::answer::{Answer, SinkOf, TaskList};
 use super::body_pairs::{BodyPair, BodyPairs};
@@ -20,7 +21,7 @@ use crate::update::{Partner, Refit};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// What queries of every kind work on: all of a world but what single kinds keep.
+/// State of a world that queries of every kind share.
 pub(crate) struct Common<S> {
     pub(crate) options: Options,
     pub(crate) instructions: Instructions,
@@ -30,9 +31,9 @@ pub(crate) struct Common<S> {
     pub(crate) origin: FloatingOrigin,
     /// Buffers of the descent.
     pub(crate) scratch: Scratch,
-    /// The work of the last query.
+    /// Counters of the last query.
     pub(crate) statistics: Statistics,
-    /// The work that was done early since the last query.
+    /// Counters of work done early since the last query.
     pub(crate) done_early: Statistics,
 }
 
@@ -42,14 +43,15 @@ pub(crate) struct Asked<K: Kind> {
     pub(crate) tasks: TaskList<K>,
     together: Together,
     pub(super) sorter: Sorter<K::Hit>,
-    /// Hits that are more than their numbers, of every thread; the first of these lists is that of all in the end.
+    /// Hits of every thread, for kinds whose hits are more than numbers. The first list holds all
+    /// hits in the end.
     lists: PerThread<Vec<K::Hit>>,
-    /// All hits as they were measured, once they are sorted.
+    /// All hits, measured, in sorted order.
     pub(super) measured: Vec<K::Shown>,
 }
 
 impl<K: Kind<Hit: Hit>> Asked<K> {
-    /// All hits, sorted.
+    /// Returns all hits, sorted.
     pub(crate) fn all(
         &mut self,
         kind: &K,
@@ -70,7 +72,7 @@ impl<K: Kind<Hit: Hit>> Asked<K> {
 }
 
 impl<K: Kind> Asked<K> {
-    /// All hits, sorted; for kinds whose hits are more than their numbers.
+    /// Returns all hits, sorted; for kinds whose hits are more than numbers.
     pub(crate) fn all_listed(
         &mut self,
         kind: &K,
@@ -95,7 +97,7 @@ impl<K: Kind> Asked<K> {
         Ok(all)
     }
 
-    /// Goes through all candidates of a kind that keeps to itself what it finds.
+    /// Tests all candidates, for a kind that stores its results itself.
     pub(crate) fn search(
         &mut self,
         kind: &K,
@@ -122,8 +124,7 @@ impl<K: Kind> Asked<K> {
     }
 }
 
-/// Has every thread keep what it finds, some hits at a time. It is an error if there are more than
-/// the request allows.
+/// Has every thread keep its hits, some at a time. Fails if there are more than the request allows.
 fn collect<K: Kind>(
     buffers: (&mut TaskList<K>, &mut Together),
     kind: &K,
@@ -150,7 +151,7 @@ fn collect<K: Kind>(
     Ok(())
 }
 
-/// Answers a query: what it finds goes to a sink, until that breaks.
+/// Answers a query: passes its hits to a sink, until that breaks.
 fn ask<K: Kind>(
     (tasks, together): (&mut TaskList<K>, &mut Together),
     kind: &K,
@@ -177,11 +178,11 @@ fn ask<K: Kind>(
     done
 }
 
-/// The work on a batch of pairs of bodies.
+/// Processes a batch of pairs of bodies.
 type Meet<'m, S> = &'m mut dyn FnMut(&mut Step, &mut Bodies<S>, &[BodyPair]) -> ControlFlow<()>;
 
 impl<S: Coordinate> Common<S> {
-    /// The threads that work on a query.
+    /// Executor of a query: its threads, and its interrupt.
     pub(crate) fn executor<'q>(&'q mut self, interrupt: &'q Interrupt<'q>) -> Executor<'q> {
         Executor {
             threads: self.threads.here(),
@@ -189,7 +190,7 @@ impl<S: Coordinate> Common<S> {
         }
     }
 
-    /// At the beginning of every query.
+    /// Begins a query: validates its bodies, settles the origin, resets the counters.
     pub(crate) fn begin(&mut self, request: &Request) -> Result<(), Error> {
         self.bodies.validate(request.of)?;
         self.settle_origin();
@@ -197,8 +198,7 @@ impl<S: Coordinate> Common<S> {
         Ok(())
     }
 
-    /// A step of a query, perhaps one that is done early, the bodies it works on, and the finder of
-    /// pairs.
+    /// Step of a query, or of work done early, with the bodies it works on and the finder of pairs.
     pub(super) fn step<'q>(
         &'q mut self,
         needs: Needs,
@@ -227,7 +227,7 @@ impl<S: Coordinate> Common<S> {
         (step, &mut self.bodies, &mut self.body_pairs)
     }
 
-    /// Goes through the pairs of bodies that a query is about, batch by batch, until one breaks.
+    /// Processes the pairs of bodies of a query, batch by batch, until one breaks.
     fn for_each_batch(
         &mut self,
         needs: Needs,
@@ -240,8 +240,8 @@ impl<S: Coordinate> Common<S> {
         let (boxes, origin) = (needs.body_boxes(), step.origin);
         body_pairs.begin(request.of, bodies, boxes, origin, interrupt)?;
         let instructions = step.refit.instructions;
-        // Bodies with themselves are a batch of their own, the first: what is refitted then does
-        // not depend on the order in which threads take the others.
+        // The first batch holds bodies with themselves only. What is refitted then does not depend
+        // on the order in which threads take different bodies.
         while let Some(pairs) = body_pairs.next(bodies, instructions, interrupt) {
             if meet(&mut step, bodies, pairs).is_break() {
                 break;
@@ -250,7 +250,8 @@ impl<S: Coordinate> Common<S> {
         self.end(interrupt)
     }
 
-    /// Does early what a query would do first: finds the bodies that may meet and refits the upper levels of their trees.
+    /// Does early what a query does first: finds the bodies that may meet, and refits the upper
+    /// levels of their trees.
     pub(crate) fn prepare(&mut self, needs: Needs, request: &Request) -> Result<(), Error> {
         let interrupt = Interrupt::new(request.question);
         self.bodies.validate(request.of)?;
@@ -271,7 +272,7 @@ impl<S: Coordinate> Common<S> {
         self.for_each_batch(needs, request, &interrupt, true, meet)
     }
 
-    /// At the end of every query: if it was interrupted, nothing that it left half done is believed.
+    /// Ends a query. After an interrupt, drops all state that may be half done, and fails.
     pub(crate) fn end(&mut self, interrupt: &Interrupt) -> Result<(), Error> {
         if !interrupt.is_set() {
             return Ok(());
@@ -287,7 +288,7 @@ impl<S: Coordinate> Common<S> {
         }
     }
 
-    /// A body has a new shape or box.
+    /// Notes that a body has a new shape or box.
     pub(crate) fn note_movement(&mut self) {
         self.origin.note_movement();
         self.body_pairs.forget();

@@ -1,7 +1,8 @@
-//! Which bodies may meet: the broad phase, filters and exact boxes.
+//! Pairs of bodies that may meet: the broad phase, filters and exact boxes.
 //!
-//! Pairs come in batches, each found when the one before has met, so many bodies in one place cost time and no memory, and a query that
-//! ends early has not looked for pairs that it does not need. If one batch holds all pairs it is kept for as long as nothing moves.
+//! Pairs come in batches, each found when the previous one has been processed. So many bodies in
+//! one place cost time but no memory. A query that ends early searches for no pairs that it does
+//! not need. If one batch holds all pairs, it is kept until something moves.
 
 use crate::bodies::Bodies;
 use crate::broad_phase::{BroadPhase, Overlap};
@@ -18,40 +19,43 @@ use crate::threads::Interrupt;
 /// Two bodies by their places, or one twice: a body with itself.
 pub(crate) type BodyPair = [Place; 2];
 
-/// Pairs of a batch, or of the bodies if there are more of these, times [`PAIRS_A_BODY`]; and those of one body more.
+/// Most pairs in a batch: this, or [`PAIRS_A_BODY`] times the bodies if that is more. One more row
+/// of the broad phase may be added.
 const BATCH: usize = 1 << 16;
 const PAIRS_A_BODY: usize = 4;
 
-/// The batches of one query, and what is kept from query to query.
+/// Batches of one query, and state kept from query to query.
 #[derive(Debug)]
 pub(crate) struct BodyPairs {
     broad_phase: BroadPhase,
-    /// Of every body, by its rank: its exact box, and the one that the broad phase works with, which is the loose one if there is one.
+    /// Exact box of every body, by rank. `broad` holds the boxes of the broad phase, which are the
+    /// loose ones where there are any.
     exact: Vec<Aabb>,
     broad: Vec<Aabb>,
     /// Scratch: the last row of the broad phase.
     row: Vec<Overlap>,
-    /// The last batch of different bodies of the whole world, in the order of ids, the smaller first.
+    /// Last batch of different bodies of the whole world, in the order of ids, the smaller first.
     of_world: Vec<BodyPair>,
-    /// What bodies' boxes were for it, if it holds all pairs and nothing has happened since that could change it.
+    /// Kind of bodies' boxes behind `of_world`, if that holds all pairs and nothing has changed
+    /// since.
     holds_for: Option<BodyBoxes>,
-    /// What a query asked for by name.
+    /// Pairs that the query names: a body with itself, or two bodies.
     named: Vec<BodyPair>,
-    /// What the query has not been given yet, and what boxes of bodies are for it.
+    /// Next batch of the query. `boxes` is the kind of bodies' boxes it uses.
     next: Next,
     boxes: BodyBoxes,
 }
 
-/// What comes after the batches that a query was given.
+/// Batch that follows the batches already given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Next {
-    /// Those named, and then perhaps those of the whole world.
+    /// Named pairs, and then perhaps the pairs of the whole world.
     Named {
         and_world: bool,
     },
     /// All pairs of the whole world, which are known.
     Known,
-    /// Pairs of the whole world that are still to be found: all, or those after the last batch.
+    /// Pairs of the whole world that are still to be found: all, or the rest after the last batch.
     Found {
         is_first: bool,
     },
@@ -73,19 +77,19 @@ impl BodyPairs {
         }
     }
 
-    /// A body has moved, or a filter has changed.
+    /// Drops the known pairs: a body has moved, or a filter has changed.
     pub(crate) fn forget(&mut self) {
         self.holds_for = None;
     }
 
-    /// The body of a rank is gone, and those after it are one rank higher.
+    /// Removes the body of a rank; later bodies move down by one rank.
     pub(crate) fn remove(&mut self, rank: Rank) {
         self.broad_phase.remove(rank);
         self.forget();
     }
 
-    /// Begins with the pairs of a selection whose boxes overlap: bodies with themselves first, for which all their boxes are refitted,
-    /// and then different bodies; each in the order of ids.
+    /// Begins with the pairs of a selection whose boxes overlap. Bodies with themselves come first,
+    /// since all their boxes are refitted. Different bodies follow; both are in the order of ids.
     pub(crate) fn begin<S: Coordinate>(
         &mut self,
         of: Selection,
@@ -126,7 +130,8 @@ impl BodyPairs {
         Ok(())
     }
 
-    /// The next batch of the query that has begun, which may be empty; none after the last. Interrupted, it is the last.
+    /// Next batch of the query that has begun, which may be empty; none after the last. An
+    /// interrupt makes a batch the last.
     pub(crate) fn next<S: Coordinate>(
         &mut self,
         bodies: &Bodies<S>,
@@ -162,7 +167,8 @@ impl BodyPairs {
         }
     }
 
-    /// Finds the next batch of the whole world, or, interrupted, some of it. Returns whether there may be more.
+    /// Finds the next batch of the whole world, or a part of it if interrupted. Returns whether
+    /// there may be more.
     fn find<S: Coordinate>(
         &mut self,
         bodies: &Bodies<S>,
@@ -189,7 +195,7 @@ impl BodyPairs {
         !interrupt.is_set()
     }
 
-    /// The boxes of all bodies as they are now.
+    /// Copies the present boxes of all bodies.
     fn take_boxes<S: Coordinate>(&mut self, bodies: &Bodies<S>, boxes: BodyBoxes, origin: Origin) {
         let Self { exact, broad, .. } = self;
         exact.clear();

@@ -1,6 +1,7 @@
-//! Close pairs that were found, measured: distance, direction and closest points of each.
+//! Measured close pairs: distance, direction and closest points of each.
 //!
-//! A list is measured once it is sorted, so that what is sorted is small; visitors are shown what was measured on the way.
+//! A list is measured after it is sorted, so that sorting moves small hits. Visitors are shown
+//! pairs that were measured on the way.
 
 use super::asked::{Asked, Common};
 use super::request::Request;
@@ -12,17 +13,17 @@ use crate::kernels::{Coordinate, Instructions, dispatch};
 use crate::queries::{Kind, Measurable, measure_all};
 use crate::threads::{Executor, Grain, Interrupt};
 
-/// Two things whose corners are known to bodies.
+/// Pair of elements whose corners are known to bodies.
 pub(crate) trait InBodies: Measurable {
-    /// Which bodies the first and the second are of.
+    /// Bodies of the first and the second element.
     fn bodies(&self) -> [BodyId; 2];
 
-    /// The corners in these bodies, in the caller's order.
+    /// Corners of both elements, in the caller's order.
     fn corners<'b, S: Coordinate>(&self, bodies: [&Places<'b, S>; 2]) -> Self::Corners<'b, S>;
 }
 
 impl<H: InBodies, K: Kind<Hit = H, Shown = H::Close>> Asked<K> {
-    /// All hits, sorted, with what is measured of them.
+    /// Returns all hits, sorted, with their measurements.
     pub(crate) fn all_measured(
         &mut self,
         kind: &K,
@@ -42,7 +43,8 @@ impl<H: InBodies, K: Kind<Hit = H, Shown = H::Close>> Asked<K> {
     }
 }
 
-/// Measures pairs, all of whose bodies a query has just looked at, into a list that is kept from call to call. Interrupted, it ends early.
+/// Measures pairs of bodies that a query has just read, into a list that is kept from call to call.
+/// An interrupt ends it early.
 fn measure<S: Coordinate, H: InBodies>(
     bodies: &Bodies<S>,
     hits: &[H],

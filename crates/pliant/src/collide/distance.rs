@@ -1,8 +1,9 @@
-//! How far two bodies are apart, and a body from all others.
+//! Distance of two bodies, and of a body from all others.
 //!
-//! Nothing, if their triangles intersect: that is asked first. Else the triangles whose boxes are nearest are measured, until no box is
-//! near enough to hold nearer ones. The pair that was nearest the last time is measured before all others: mostly it still
-//! nearly is, and then hardly a box is opened that does not have to be.
+//! The distance is zero if their triangles intersect, which is asked first. Otherwise triangles are
+//! measured by increasing gap of their boxes, until no box left can hold nearer ones. The pair that
+//! was nearest the last time is measured first. It is mostly still almost the nearest, and then
+//! hardly any unneeded box is opened.
 
 use super::asked::Common;
 use super::witness::{Witnesses, pair_of};
@@ -21,17 +22,19 @@ use crate::traversal::{NearestScratch, TreePair, gap_square, nearest};
 use crate::update::Partner;
 use std::ops::ControlFlow;
 
-/// What a world keeps for distances.
+/// State of a world for distance queries.
 #[derive(Debug, Default)]
 pub(crate) struct Distances {
     scratch: NearestScratch,
-    /// The triangles that were nearest the last time.
+    /// Triangles that were nearest the last time.
     pub(crate) last: Witnesses,
-    /// Of a body that is asked how far it is from all others, these with the gaps of boxes.
+    /// Other bodies with their squared gaps, for a query of one body against all others.
     pub(crate) others: Vec<(f64, BodyId)>,
 }
 
-/// Lists all others that may meet a body, with the square of the gap of the boxes, the nearest first.
+/// Lists all others that may meet a body, with the squared gap of the boxes, the nearest first.
+///
+/// Costs O(n log n) for n bodies.
 pub(crate) fn others_by_gap<S: Coordinate>(
     common: &mut Common<S>,
     id: BodyId,
@@ -50,7 +53,7 @@ pub(crate) fn others_by_gap<S: Coordinate>(
     Ok(())
 }
 
-/// Triangles of two bodies that intersect, with a point in common.
+/// Measures two triangles that intersect: a common point of two bodies.
 pub(crate) fn in_common<S: Coordinate>(
     common: &Common<S>,
     of: [BodyId; 2],
@@ -58,7 +61,7 @@ pub(crate) fn in_common<S: Coordinate>(
 ) -> Option<CloseTriangles> {
     let [a, b] = of.map(|id| common.bodies.get(id));
     let both = [a.ok()?, b.ok()?];
-    // They were perhaps not brought into tree order.
+    // The bodies may not be in tree order.
     let [a, b] = [0, 1].map(|which| both[which].corners_now(found[which]));
     let [a, b] = [a, b].map(|corners| corners.map(|[x, y, z]| [x, y, z, z]));
     let corners = [a.each_ref(), b.each_ref()];
@@ -68,7 +71,8 @@ pub(crate) fn in_common<S: Coordinate>(
 }
 
 impl Distances {
-    /// The nearest triangles of two bodies that do not intersect.
+    /// Finds the nearest triangles of two bodies that do not intersect. None if they are further
+    /// apart than `cut_off`.
     pub(crate) fn nearest<S: Coordinate>(
         &mut self,
         common: &mut Common<S>,
@@ -148,7 +152,7 @@ fn parts_of<S: Coordinate>(
     (0..of_a).flat_map(move |a| (0..of_b).map(move |b| (a, b)))
 }
 
-/// Refuses what is no distance. It may be infinite.
+/// Refuses a negative distance or NaN; infinity is allowed.
 pub(crate) fn check(distance: f64) -> Result<(), Error> {
     if distance >= 0.0 {
         return Ok(());

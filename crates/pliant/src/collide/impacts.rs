@@ -1,11 +1,13 @@
-//! When bodies first meet on their way: all pairs of elements that do, the first of them, and how far everything may go.
+//! Continuous collision of moving bodies: all impacts, the first contact, and the longest safe
+//! step.
 //!
-//! **The first** is looked for on the first part of the motion, then on a longer one, until something meets: boxes that hold a short way
-//! are small. What has met before limits what is still looked at, and is compared with exactly: see `queries::Earliest`.
-//!
-//! **A step that is free of contact** goes somewhat less far than the first contact. There every corner is rounded, so that the straight
-//! motion to the rounded shape is another one; it is decided whether anything meets on that, exactly, and if so a shorter step is tried.
-//! What meets at the start of a motion is no contact of the step.
+//! - **First contact**: searched on the first part of the motion, then on longer parts, until
+//!   something meets. Boxes of a short motion are small. A contact that is found limits the search
+//!   and is compared exactly (`queries::Earliest`).
+//! - **Step free of contact**: somewhat less far than the first contact. Every corner is rounded
+//!   there, so the straight motion to the rounded shape is a different one. Whether anything meets
+//!   on that is decided exactly; if so, a shorter step is tried. Elements that meet at the start of
+//!   a motion are no contact of the step.
 
 use super::asked::{Asked, Common};
 use super::request::Request;
@@ -22,16 +24,18 @@ use crate::statistics::Statistics;
 use pliant_exact::motion::Grid;
 use std::ops::ControlFlow;
 
-/// The next part of a motion that is looked at is so many times as long.
+/// Factor by which each searched part of a motion is longer than the last.
 const LONGER: f64 = 4.0;
-/// The first is not shorter than this.
+/// Least first part of a motion that is searched.
 const SHORTEST: f64 = 1.0 / 1024.0;
 
-/// Parts of the time of the first contact that are tried as a step, from the longest on.
+/// Fractions of the time of first contact that are tried as a step, the longest first.
 ///
-/// 0.9 of it is promised if up to 0.91 of it everything is apart by 9 units in the last place of the largest coordinate: `Real::toward`
-/// rounds a difference, which is at most two times the largest coordinate, its product, and the sum, which is no larger than the ends. These
-/// are off by 1, 1 and 1/2 units. So two points come nearer to each other by 5 on an axis, and by less than 9 in all.
+/// 0.9 of it is promised if everything is apart by 9 units in the last place, up to 0.91 of it. The
+/// unit is taken at the largest coordinate. `Real::toward` rounds a difference, its product, and
+/// the sum. The difference is at most twice the largest coordinate; the sum is no larger than the
+/// ends. These are off by 1, 1 and 1/2 units. So two points come nearer to each other by 5 on an
+/// axis, and by less than 9 in all.
 const PARTS: [f64; 9] = [
     31.0 / 32.0,
     30.0 / 32.0,
@@ -44,7 +48,7 @@ const PARTS: [f64; 9] = [
     0.0,
 ];
 
-/// Which elements are looked at.
+/// Kinds of elements that are tested for contact.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum OfKind {
     Both,
@@ -52,7 +56,7 @@ pub(crate) enum OfKind {
     Edges,
 }
 
-/// What a world keeps for impacts of either kind.
+/// State of a world for impacts of both kinds.
 #[derive(Debug)]
 pub(crate) struct AskedImpacts<S: Coordinate> {
     pub(crate) vertex_triangle: Asked<Impacts<VertexTriangleCandidates<S>>>,
@@ -60,8 +64,10 @@ pub(crate) struct AskedImpacts<S: Coordinate> {
 }
 
 impl<S: Coordinate> AskedImpacts<S> {
-    /// The first contact of a motion: which elements it is of, and when. Of several at one time that of a vertex and a triangle; the first
-    /// in order.
+    /// First contact of a motion: its elements and time.
+    ///
+    /// Of several at one time it is a vertex and a triangle before two edges, and then the first in
+    /// order.
     pub(crate) fn first_contact(
         &mut self,
         common: &mut Common<S>,
@@ -71,8 +77,8 @@ impl<S: Coordinate> AskedImpacts<S> {
         Ok(self.earliest(common, request, of, false, 0.0)?.first())
     }
 
-    /// The earliest contact, of both kinds or one, after the start or at any time; or the first time at which elements come as near as a
-    /// distance.
+    /// Earliest contact of both kinds or one, after the start or at any time. With a distance, the
+    /// first time at which elements come that near.
     fn earliest(
         &mut self,
         common: &mut Common<S>,
@@ -139,8 +145,8 @@ impl<S: Coordinate> AskedImpacts<S> {
         Ok(step)
     }
 
-    /// Whether nothing meets on straight ways to the shapes at a time, rounded, but what meets at the start, or comes as near as a
-    /// distance.
+    /// Whether the straight motion to the rounded shapes at a time is free of contact. Elements
+    /// that meet at the start are allowed. With a distance, nothing may come that near.
     fn is_free_to(
         &mut self,
         common: &mut Common<S>,
@@ -164,7 +170,7 @@ impl<S: Coordinate> AskedImpacts<S> {
     }
 }
 
-/// Which part of the motion is looked at first: one in which most vertices move less than an edge.
+/// First part of the motion to be searched: one in which most vertices move less than an edge.
 fn first_part<S: Coordinate>(common: &Common<S>, of: Selection) -> f64 {
     let is_of_it = |body: &Body<S>| match of {
         Selection::World | Selection::Everything => true,
@@ -181,7 +187,7 @@ fn first_part<S: Coordinate>(common: &Common<S>, of: Selection) -> f64 {
     part
 }
 
-/// Contacts up to a time, or what comes as near as a distance.
+/// Kind that finds contacts up to a time, or elements that come as near as a distance.
 fn impacts<E, S>(reach: Reach, distance: f64) -> Impacts<Candidates<E, S>> {
     // Half the distance for each of two, and a little more than the lanes look for.
     let margin = Margin::new((distance * (LIMIT / 2.0 + 0.001)).min(f64::MAX));
@@ -193,7 +199,7 @@ where
     Candidates<E, S>: Kind,
     Impacts<Candidates<E, S>>: Kind<Scalar = S, Shown: Into<Impact>>,
 {
-    /// The earliest of one kind, if it is earlier than what is known.
+    /// Earliest contact of one kind, if it is earlier than the one known.
     fn earliest(
         &mut self,
         common: &mut Common<S>,
@@ -207,8 +213,8 @@ where
         Ok(kind.into_earliest())
     }
 
-    /// Whether none of one kind meets after the start on the way to a time, or comes as near as a
-    /// distance at any.
+    /// Whether no elements of one kind meet after the start, up to a time. With a distance, none
+    /// may come that near at any time.
     fn is_free_to(
         &mut self,
         common: &mut Common<S>,

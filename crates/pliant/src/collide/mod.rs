@@ -1,9 +1,14 @@
-//! Queries of bodies: which of them may meet, and what they do to each other, pair by pair or many pairs at once.
+//! Collision queries over bodies: which pairs may meet, and their hits, pair by pair or many pairs
+//! at once.
 //!
-//! `asked` answers a `request` of some kind, pair by pair (`step`) or many pairs at once (`scheduler`); an `answer` is what its tasks find.
-//! `body_pairs` says who may meet whom, `witness` is the last first pair, `origin` what boxes are relative to. Close pairs are put in
-//! order and measured in `close`; how far bodies are apart is found in `distance`. What meets first, and how far everything may go, is
-//! found in `impacts`.
+//! - `request`, `asked`, `answer`: a query's parameters, how it is answered, and the hits of its
+//!   tasks.
+//! - `body_pairs`: the pairs of bodies that may meet.
+//! - `step`: one pair of bodies; `together`: many pairs at once, on several threads.
+//! - `witness`: the last first pair, tested before anything else.
+//! - `close`, `distance`: close pairs measured; the distance of bodies.
+//! - `impacts`: the first contact of a motion, and how far everything may move.
+//! - `origin`: the point that boxes are relative to.
 
 mod answer;
 mod asked;

@@ -1,5 +1,6 @@
-//! The point that the boxes of an `f64` world are relative to. It follows the bodies, because the digits of an `f32` are best spent on
-//! their shapes.
+//! Floating origin: the point that the boxes of an `f64` world are relative to.
+//!
+//! It follows the bodies, because the digits of an `f32` are best spent on their shapes.
 
 use crate::bodies::{Bodies, Body};
 use crate::geometry::{Bounds, Origin};
@@ -7,21 +8,22 @@ use crate::kernels::Coordinate;
 
 #[derive(Debug, Default)]
 pub(crate) struct FloatingOrigin {
-    /// Zero for `f32`.
+    /// Coordinates of the origin; zero for `f32`.
     pub(crate) point: Origin,
-    /// Shapes taken over since the bodies were last looked at.
+    /// Shapes taken over since the extent of all bodies was last computed.
     moves: usize,
 }
 
 impl FloatingOrigin {
-    /// A body has a new shape.
+    /// Notes that a body has a new shape.
     pub(crate) fn note_movement(&mut self) {
         self.moves += 1;
     }
 
-    /// Moves to the bodies if they have moved away; all boxes are then stale. Returns whether it moved.
+    /// Moves to the bodies if they have moved away; all boxes are then stale. Returns whether it
+    /// moved.
     ///
-    /// Looking at all bodies costs O(n), so it is done only when as many shapes were taken over as there are bodies.
+    /// Amortised O(1) per new shape: it takes O(n) for n bodies, but only after n new shapes.
     pub(crate) fn settle<S: Coordinate>(&mut self, bodies: &mut Bodies<S>) -> bool {
         if S::BOXES_ARE_EXACT || self.moves < bodies.len() {
             return false;
@@ -39,7 +41,8 @@ impl FloatingOrigin {
         let away = largest(std::array::from_fn(|axis| {
             (centre[axis] - self.point[axis]).abs()
         }));
-        // Within two radii a box loses two of its 24 bits at most; the slack keeps a moving world from settling every step.
+        // Within two radii a box loses at most two of its 24 bits. The slack keeps a moving world
+        // from settling every step.
         let moves = away > 2.0 * radius;
         if moves {
             let [x, y, z] = centre;

@@ -1,4 +1,4 @@
-//! What a query is asked with, and who answers it.
+//! Parameters of a query, and the trait that answers it.
 
 use crate::error::{Error, ErrorKind};
 use crate::queries::{ContactKind, Margin};
@@ -7,26 +7,26 @@ use crate::threads::Question;
 use crate::traversal::Visitor;
 use pliant_exact::motion::Grid;
 
-/// How wide intervals of times may be, if nothing is said.
+/// Default width of intervals of times.
 const WIDTH: f64 = 1e-6;
 
-/// What a query is asked with.
+/// Parameters of a query.
 #[derive(Clone, Copy)]
 pub(crate) struct Request<'q> {
     pub(crate) of: Selection,
-    /// The most hits that a list may have.
+    /// Most hits that a list may have.
     pub(crate) most: usize,
     pub(crate) question: Option<Question<'q>>,
-    /// Of candidates, the margin round each element; of close pairs, how far they may be apart; else 0.
+    /// Margin round each element for candidates, largest distance for close pairs; else 0.
     pub(crate) within: f64,
-    /// Of impacts, how wide the intervals of times may be; else nothing.
+    /// Width that intervals of times may have, for impacts; other kinds ignore it.
     pub(crate) width: f64,
-    /// Of contacts, the one kind that is asked for; else nothing.
+    /// Only kind of contact that is asked for, if not all are.
     pub(crate) only: Option<ContactKind>,
 }
 
 impl Request<'_> {
-    /// Of all hits, with nothing said but of whom.
+    /// Request for all hits of a selection, with defaults for everything else.
     pub(crate) fn new(of: Selection) -> Self {
         Self {
             of,
@@ -38,26 +38,26 @@ impl Request<'_> {
         }
     }
 
-    /// The margin that is asked for.
+    /// Margin that is asked for; fails if it is negative or not finite.
     pub(crate) fn margin(&self) -> Result<Margin, Error> {
         let radius = self.within;
         checked(radius, ErrorKind::BadMargin { radius }).map(Margin::new)
     }
 
-    /// The grid of times that is asked for.
+    /// Grid of times that is asked for; fails if its width is negative or not finite.
     pub(crate) fn grid(&self) -> Result<Grid, Error> {
         let width = self.width;
         checked(width, ErrorKind::BadWidth { width }).map(Grid::new)
     }
 
-    /// The distance that is asked for.
+    /// Distance that is asked for; fails if it is negative or not finite.
     pub(crate) fn distance(&self) -> Result<f64, Error> {
         let distance = self.within;
         checked(distance, ErrorKind::BadDistance { distance })
     }
 }
 
-/// A number that is finite and at least 0; else what is wrong.
+/// Checks that a number is finite and at least 0.
 fn checked(number: f64, wrong: ErrorKind) -> Result<f64, Error> {
     if number.is_finite() && number >= 0.0 {
         return Ok(number);

@@ -1,5 +1,7 @@
-//! One pair of bodies, or one body with itself, in a query of some kind: shapes into tree order, upper levels refitted, trees
-//! descended. Which bodies, `body_pairs` says.
+//! One pair of bodies, or one body with itself, in a query: tree order, refit of upper levels,
+//! descent.
+//!
+//! `body_pairs` decides which bodies these are.
 
 use super::body_pairs::BodyPair;
 use crate::bodies::Bodies;
@@ -13,10 +15,10 @@ use crate::traversal::{Scratch, Side, Tasks, TreePair, descend};
 use crate::update::{Partner, Refit};
 use std::ops::ControlFlow;
 
-/// Fewer pairs of nodes say nothing of how trees have decayed, and are not worth writing down.
+/// Fewest pairs of nodes that tell how trees have decayed; fewer are not worth noting.
 pub(super) const SAYS_NOTHING: u64 = 64;
 
-/// What a query needs besides bodies.
+/// Context of a query besides its bodies.
 pub(crate) struct Step<'q> {
     pub(crate) needs: Needs,
     pub(crate) refit: Refit<'q>,
@@ -26,7 +28,8 @@ pub(crate) struct Step<'q> {
 }
 
 impl Step<'_> {
-    /// Shows what two bodies, or one and itself, do to each other. Breaks if the sink does, or if it is interrupted.
+    /// Passes the hits of two bodies, or of one with itself, to the sink. Breaks if the sink does,
+    /// or if interrupted.
     pub(crate) fn meet<S: Coordinate>(
         &mut self,
         bodies: &mut Bodies<S>,
@@ -40,7 +43,7 @@ impl Step<'_> {
         }
     }
 
-    /// Two different bodies.
+    /// Processes two different bodies.
     pub(crate) fn meet_another<S: Coordinate>(
         &mut self,
         both: [&mut Body<S>; 2],
@@ -68,7 +71,7 @@ impl Step<'_> {
         ControlFlow::Continue(())
     }
 
-    /// One body with itself.
+    /// Processes one body with itself.
     pub(crate) fn meet_itself<S: Coordinate>(
         &mut self,
         body: &mut Body<S>,
@@ -100,19 +103,20 @@ impl Step<'_> {
         ControlFlow::Continue(())
     }
 
-    /// Pairs of nodes and candidates that were looked at so far.
+    /// Pairs of nodes and candidates so far.
     fn looked_at(&self) -> [u64; 2] {
         [self.statistics.node_pairs, self.statistics.candidate_pairs]
     }
 
-    /// The same since they were so, if that says anything of how trees have decayed.
+    /// Pairs of nodes and candidates since `before`, if enough to tell how trees have decayed.
     fn much_since(&self, before: [u64; 2]) -> Option<[u64; 2]> {
         let now = self.looked_at();
         let is_much = self.needs.triangles() && now[0] - before[0] >= SAYS_NOTHING;
         is_much.then(|| [now[0] - before[0], now[1] - before[1]])
     }
 
-    /// Two trees; those of which bodies have several perhaps do not overlap.
+    /// Descends two trees. Where bodies have several trees, skips two whose root boxes do not
+    /// overlap.
     fn descend_two<S: Coordinate>(
         &mut self,
         both: [Side<'_, S>; 2],
@@ -135,7 +139,7 @@ impl Step<'_> {
         descend(self.refit, self.needs, pair, tasks, scratch, statistics)
     }
 
-    /// Does for a body, early, what a query of it does before it descends.
+    /// Does early for a body what a query does before it descends.
     pub(crate) fn prepare<S: Coordinate>(
         &mut self,
         body: &mut Body<S>,
@@ -151,7 +155,8 @@ impl Step<'_> {
         ControlFlow::Continue(())
     }
 
-    /// Brings a body into the order of its trees, and makes the boxes of its elements if the kind reads those. Breaks if it is interrupted.
+    /// Brings a body into the order of its trees, and refits the boxes of its elements if the kind
+    /// reads them. Breaks if interrupted.
     pub(crate) fn bring_body_into_tree_order<S: Coordinate>(
         &mut self,
         body: &mut Body<S>,
@@ -170,7 +175,8 @@ impl Step<'_> {
         ControlFlow::Continue(())
     }
 
-    /// A part of a body that was brought into tree order, with the upper levels of its boxes. Breaks if it is interrupted.
+    /// Part of a body in tree order, with the upper levels of its boxes refitted. Breaks if
+    /// interrupted.
     pub(crate) fn ahead<'b, S: Coordinate>(
         &mut self,
         body: &'b mut Body<S>,
@@ -182,7 +188,8 @@ impl Step<'_> {
         ControlFlow::Continue(side)
     }
 
-    /// Does what comes before the descent: the same for a query and for what is done early. Breaks if it is interrupted.
+    /// Refits the boxes that are completed ahead of the descent, for a query or early work alike.
+    /// Breaks if interrupted.
     fn refit_ahead<S: Coordinate>(
         &mut self,
         side: &mut Side<'_, S>,

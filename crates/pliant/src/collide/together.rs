@@ -1,10 +1,10 @@
 //! Many pairs of bodies at once, on several threads, for queries that want all hits.
 //!
-//! Idea: level by level over all pairs of bodies together. Bodies are made ready, then tasks go down
-//! all trees (`traversal::Round`) until they need boxes that are stale, which are refitted, and so on;
-//! then come leaves, and neighbours in bodies that meet themselves. So threads wait for each other a
-//! few times in a query, not a few times in every pair of bodies. Invariant: boxes, hits and counters
-//! are those of one pair after the other (`step`).
+//! Idea: level by level over all pairs of bodies together. Bodies are prepared, then tasks descend
+//! all trees (`traversal::Round`) until they need stale boxes, which are refitted, and so on.
+//! Leaves follow, and neighbours in bodies that meet themselves. So threads wait for each other a
+//! few times in a query, not a few times in every pair of bodies. Invariant: boxes, hits and
+//! counters are the same as if pairs were processed one by one (`step`).
 
 use super::body_pairs::BodyPair;
 use super::step::{SAYS_NOTHING, Step};
@@ -24,27 +24,27 @@ use std::iter;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
-/// With this many pairs of leaves they are tested before tasks go on: it bounds memory.
+/// Pairs of leaves from which they are tested before the descent goes on: bounds memory.
 const MOST_LEAVES: usize = 1 << 20;
-/// Leaves in a run that is tested with its neighbours.
+/// Leaves in a run that is tested with its neighbours: the least piece that threads share.
 const RUN: usize = 64;
 
-/// Buffers, kept from query to query, and how much there was to do in the last.
+/// Buffers, kept from query to query, and the amount of work of the last query.
 #[derive(Debug, Default)]
 pub(crate) struct Together {
-    /// Parts of bodies, by the places of these.
+    /// Trees, each a part of a body, sorted by the places of the bodies.
     trees: Vec<(Place, usize)>,
     pairs: Vec<Pair>,
     items: Items,
-    /// Wide nodes and leaves that were reached, by trees.
+    /// Stale wide nodes that were reached, by tree. `reached` holds leaves likewise.
     stale: Vec<Mutex<DirtySet>>,
     reached: Vec<Mutex<DirtySet>>,
-    /// Pairs of nodes and candidates that were looked at, by pairs of bodies.
+    /// Counters by pair of bodies: pairs of nodes, and candidates.
     looked_at: Vec<[u64; 2]>,
-    /// How each body at its place takes part.
+    /// Partners of each body, by its place; none if the body takes no part.
     partners: Vec<Option<Partner>>,
     helpers: PerThread<Helper>,
-    /// About how long the last query would take one thread, in nanoseconds; none before the first.
+    /// Estimated time of the last query on one thread, in nanoseconds; none before the first query.
     work: Option<u64>,
 }
 
@@ -56,7 +56,7 @@ struct Pair {
     of: u32,
 }
 
-/// What is to be done in the next rounds.
+/// Items of the present round (`now`) and of later rounds.
 #[derive(Debug, Default)]
 struct Items {
     nodes: Vec<Item>,
@@ -64,18 +64,19 @@ struct Items {
     now: Vec<Item>,
 }
 
-/// What one thread makes boxes with.
+/// Buffers and counters of one thread that refits boxes.
 #[derive(Debug, Default)]
 struct Helper {
     scratch: Scratch,
     statistics: Statistics,
 }
 
-/// Does something with a body at its place.
+/// Action on a body and its place.
 type EachBody<'e, S> = &'e (dyn Fn(&mut Step, usize, &mut Body<S>) -> ControlFlow<()> + Sync);
 
 impl Together {
-    /// Whether pairs of bodies pay several threads: by the last query, or by their triangles.
+    /// Whether pairs of bodies are worth several threads, judged by the last query, or else by
+    /// triangles.
     pub(crate) fn is_worth_it<S: Coordinate>(
         &self,
         executor: Executor,
@@ -93,7 +94,7 @@ impl Together {
         executor.pays(self.work.unwrap_or_else(triangles))
     }
 
-    /// Takes notice of how much the query did, for the next.
+    /// Estimates the time of the query from its counters, in nanoseconds, for the next query.
     pub(crate) fn note_work(&mut self, statistics: &Statistics) {
         let boxes = statistics.boxes_bottom_up + statistics.boxes_top_down;
         let work = 12 * statistics.node_pairs
@@ -103,7 +104,7 @@ impl Together {
         self.work = Some(work);
     }
 
-    /// Has all pairs of bodies meet. Breaks if it is interrupted, or there are too many hits.
+    /// Processes all pairs of bodies. Breaks if it is interrupted, or there are too many hits.
     pub(crate) fn meet<S: Coordinate>(
         &mut self,
         step: &mut Step,
@@ -216,7 +217,7 @@ impl Together {
             let (of_a, of_b) = (trees_of(a), trees_of(b));
             let are_several = of_a.len() + of_b.len() > 2;
             for tree_a in of_a {
-                // Of one body every two trees once, and each with itself.
+                // In one body, every two trees once, and each with itself.
                 let others = if a == b {
                     tree_a..of_b.end
                 } else {
@@ -236,7 +237,7 @@ impl Together {
         }
     }
 
-    /// Lists runs of leaves of bodies that meet themselves, where neighbours were left out.
+    /// Lists runs of leaves of bodies that meet themselves, where the descent left out neighbours.
     fn list_neighbours<S: Coordinate>(&mut self, step: &Step, bodies: &Bodies<S>) {
         for (number, pair) in (0..).zip(&self.pairs) {
             let tree = self.trees[pair.trees[0] as usize];
@@ -253,7 +254,8 @@ impl Together {
         }
     }
 
-    /// Has tasks do the items of now, which take about so many nanoseconds, and what others give them.
+    /// Runs a round over the items in `now`, which takes about `nanoseconds`, and takes its results
+    /// over.
     fn round<S: Coordinate>(
         &mut self,
         step: &mut Step,
@@ -322,7 +324,7 @@ impl Together {
         tasks.show(used, step.statistics)
     }
 
-    /// Refits the wide nodes that tasks have found stale.
+    /// Refits the stale wide nodes that tasks have noted.
     fn refit_stale<S: Coordinate>(
         &mut self,
         step: &mut Step,
@@ -344,7 +346,7 @@ impl Together {
         )
     }
 
-    /// Makes the boxes of the triangles in leaves that were reached.
+    /// Refits the boxes of the triangles in leaves that were reached.
     fn refit_leaves<S: Coordinate>(
         &mut self,
         step: &mut Step,
@@ -366,7 +368,7 @@ impl Together {
         )
     }
 
-    /// Tells bodies how much was looked at, from which they know how their trees have decayed.
+    /// Passes counters to bodies, which measure the decay of their trees by them.
     fn tell_bodies<S: Coordinate>(&self, bodies: &mut Bodies<S>, pairs: &[BodyPair]) {
         for (&[a, b], &[node_pairs, candidates]) in pairs.iter().zip(&self.looked_at) {
             if node_pairs < SAYS_NOTHING {
@@ -386,7 +388,7 @@ impl Together {
     }
 }
 
-/// A tree of a body as tasks read it.
+/// Read-only view of a tree of a body, for tasks.
 fn view<'b, S: Coordinate>(
     bodies: &'b Bodies<S>,
     needs: &Needs,
@@ -396,10 +398,10 @@ fn view<'b, S: Coordinate>(
     bodies.at(place).view(needs, origin, part)
 }
 
-/// Makes boxes of a part of a body.
+/// Refits boxes of a part of a body.
 type MakeBoxes<'e, S> = &'e (dyn Fn(&mut Step, &mut Body<S>, usize, &mut DirtySet) + Sync);
 
-/// Makes the boxes that were reached, of all trees.
+/// Refits the boxes that were reached, in all trees.
 fn refit<S: Coordinate>(
     step: &mut Step,
     bodies: &mut Bodies<S>,
@@ -437,8 +439,8 @@ fn refit<S: Coordinate>(
     )
 }
 
-/// Does something with every body: many of them side by side, each on one thread; few of them one
-/// after the other, with all threads. It concerns `count` of them, and takes about `nanoseconds`.
+/// Runs an action on every body. Many bodies are processed in parallel, each on one thread; few one
+/// by one, with all threads. It concerns `count` bodies, and takes about `nanoseconds`.
 fn each_body<S: Coordinate>(
     step: &mut Step,
     bodies: &mut Bodies<S>,

@@ -1,9 +1,10 @@
-//! The pair that answered the last question for a first pair: asked again before anything else.
+//! Witness cache: the last answer to a query for a first pair, tested again before anything else.
 //!
-//! What touched a step ago mostly touches still, or its neighbours do. So a query for the first pair begins with the last
-//! answer, then with the triangles beside it in the order of the trees, and looks at nothing else if one of them intersects:
-//! no box is made, and the shapes are not even brought into tree order. Whether there is a pair does not depend on it; which
-//! one it is does.
+//! Idea: temporal coherence, since triangles that touched a step ago, or their neighbours, mostly
+//! touch still. A query for the first pair tests the last answer, then the triangles beside it in
+//! tree order. If one of these pairs intersects, no box is refitted, and shapes are not even
+//! brought into tree order. Invariant: whether there is a pair does not depend on the witness;
+//! which pair is returned does.
 
 use crate::bodies::Body;
 use crate::geometry::Bounds;
@@ -17,11 +18,12 @@ use crate::threads::Interrupt;
 use pliant_exact::{Triangle, intersect};
 use std::collections::BTreeMap;
 
-/// The last answers, by the bodies asked for; a body with itself is asked for twice.
+/// Last answers by pair of bodies; a body with itself is listed twice.
 #[derive(Debug, Default)]
 pub(crate) struct Witnesses {
     answers: BTreeMap<[BodyId; 2], Candidate>,
-    /// The bodies of the last answer for the whole world, and for the whole world and each body with itself.
+    /// Bodies of the last answer for the whole world, without and with each body's
+    /// self-intersections.
     pub(crate) of_world: [Option<[BodyId; 2]>; 2],
 }
 
@@ -34,7 +36,7 @@ impl Witnesses {
         self.answers.insert(bodies, answer);
     }
 
-    /// A body is removed, or its triangles have a new order.
+    /// Drops the answers of a body that is removed, or whose triangles have a new order.
     pub(crate) fn forget(&mut self, body: BodyId) {
         self.answers.retain(|bodies, _| !bodies.contains(&body));
         for of_world in &mut self.of_world {
@@ -43,8 +45,8 @@ impl Witnesses {
     }
 }
 
-/// A pair that intersects among the neighbours of a pair, of two bodies or of one with itself: on either side the one, its leaf,
-/// the leaves beside it. In tree order, as everything here.
+/// Finds an intersecting pair near a pair, of two bodies or one with itself, in tree order. On
+/// either side it tests the triangle alone, then its leaf, then the leaves beside it.
 pub(crate) fn near<S: Coordinate>(
     both: [&Body<S>; 2],
     last: Candidate,
@@ -56,7 +58,7 @@ pub(crate) fn near<S: Coordinate>(
         .or_else(|| among::<64, S>(both, last, interrupt, statistics))
 }
 
-/// Two triangles of two bodies, or of one, as the caller numbers them.
+/// Two triangles of two bodies, or of one, in the caller's numbering.
 pub(crate) fn pair_of<S: Coordinate>(both: [&Body<S>; 2], found: Candidate) -> Pair {
     let ids = CallerIds {
         edges: [&[]; 2],
@@ -66,7 +68,7 @@ pub(crate) fn pair_of<S: Coordinate>(both: [&Body<S>; 2], found: Candidate) -> P
     Intersections::<S>::default().to_caller(&ids, found)
 }
 
-/// A pair that intersects among `R` triangles on either side.
+/// Finds an intersecting pair among `R` triangles on either side.
 fn among<const R: usize, S: Coordinate>(
     [a, b]: [&Body<S>; 2],
     [near_a, near_b]: Candidate,
@@ -78,7 +80,7 @@ fn among<const R: usize, S: Coordinate>(
     of_a.meet(&of_b, a.id() == b.id(), interrupt, statistics)
 }
 
-/// Up to R triangles in a row.
+/// Up to `R` consecutive triangles in tree order, with their boxes.
 struct Run<'b, const R: usize, S> {
     body: &'b Body<S>,
     first: TreeTriangle,
@@ -97,7 +99,7 @@ impl<'b, const R: usize, S: Coordinate> Run<'b, R, S> {
         let mut all = Bounds::EMPTY;
         for place in 0..count {
             if body.mesh().is_gone(TreeTriangle((first + place) as u32)) {
-                // Its box is empty, and overlaps none.
+                // A removed triangle has an empty box, which overlaps none.
                 continue;
             }
             corners[place] = body.corners_now(TreeTriangle((first + place) as u32));
@@ -116,7 +118,7 @@ impl<'b, const R: usize, S: Coordinate> Run<'b, R, S> {
         }
     }
 
-    /// The places of triangles whose boxes overlap a box.
+    /// Places of triangles whose boxes overlap a box.
     fn overlapping(&self, other: Bounds<f64>) -> impl Iterator<Item = usize> {
         (0..self.count).filter(move |&place| self.boxes[place].overlaps(&other))
     }

@@ -1,8 +1,10 @@
-//! Blocks that are compared, all boxes of one with all of the other: pairs of triangles whose boxes overlap are candidates.
+//! Comparison of blocks, eight boxes by eight: pairs of triangles whose boxes overlap are
+//! candidates.
 //!
-//! In a body with itself nearly all pairs of leaves are neighbours in the mesh, whose boxes overlap whatever the shape is, and of whose
-//! triangles those that share no vertex are mostly apart. So all pairs of blocks are compared by quantized boxes first: mostly nothing is
-//! left. Nothing here knows what is done with candidates, nor the degree of the trees: it is compiled once.
+//! Within one body nearly all pairs of leaves are neighbours in the mesh, whose boxes overlap in
+//! any shape. Their triangles that share no vertex are mostly apart. So all pairs of blocks of a
+//! body are compared by quantized boxes first, which mostly leaves nothing. Nothing here depends on
+//! the kind of query or on the trees' degree, so it is compiled once.
 
 use crate::held::held;
 use crate::ids::BlockId;
@@ -13,20 +15,21 @@ use crate::tree::BoxedTree;
 use crate::tree::{BlockBoxes, FirstsOfBlocks, Neighbours, Quantized, STRICT_UPPER};
 use std::ops::Range;
 
-/// Pairs of neighbouring blocks looked at before what is left of them is compared.
+/// Pairs of neighbouring blocks that are filtered before the rest is compared by exact boxes.
 const NEIGHBOURS_AT_ONCE: usize = 256;
 
 /// Two blocks in leaves whose boxes overlap.
 pub(super) type BlockPair = [BlockId; 2];
 
-/// Two blocks, or one and itself, and the pairs of their triangles that are to be compared: bit 8 i + j, as in a mask of overlaps.
+/// Two blocks, or one twice, and a mask of the pairs of triangles to be compared. Bit 8 i + j is
+/// for triangles i and j, as in a mask of overlaps.
 #[derive(Clone, Copy, Debug, Default)]
 struct MaskedPair {
     blocks: BlockPair,
     pairs: u64,
 }
 
-/// The blocks of a body: their triangles and the boxes of these.
+/// Blocks of a tree: their first triangles, and the boxes of all.
 #[derive(Clone, Copy)]
 pub(super) struct Boxes<'b> {
     firsts: FirstsOfBlocks<'b>,
@@ -42,14 +45,14 @@ impl<'b> Boxes<'b> {
     }
 }
 
-/// Blocks of one body: their boxes, and what is known of its mesh.
+/// Blocks of one body: their boxes, and the adjacency of its mesh.
 #[derive(Clone, Copy)]
 pub(super) struct OneBody<'b> {
     pub(super) boxes: Boxes<'b>,
     pub(super) quantized: Option<&'b Quantized>,
-    /// Which vertices triangles have: those that share one are left out;
+    /// Vertices of triangles: pairs that share one are left out.
     pub(super) order: &'b Order,
-    /// and which blocks are neighbours, if that is known.
+    /// Adjacency of blocks, if it is known.
     pub(super) neighbours: Option<&'b Neighbours>,
 }
 
@@ -62,7 +65,8 @@ pub(super) struct BlockTests {
 }
 
 impl BlockTests {
-    /// The candidates of pairs of blocks of two trees; without triangles that share a vertex, if an order says which those are.
+    /// Finds the candidates in pairs of blocks of two trees. With an order, leaves out triangles
+    /// that share a vertex by it.
     pub(super) fn of_two(
         &mut self,
         instructions: Instructions,
@@ -78,7 +82,7 @@ impl BlockTests {
         }
     }
 
-    /// The candidates of pairs of blocks of one tree.
+    /// Finds the candidates in pairs of blocks of one tree.
     pub(super) fn of_one(
         &mut self,
         instructions: Instructions,
@@ -102,8 +106,9 @@ impl BlockTests {
         }
     }
 
-    /// The candidates of the next of a run of leaves, each a block, with themselves and their later neighbours. Returns how many pairs
-    /// of leaves it looked at: at most so many, or those of one more leaf.
+    /// Finds the candidates in the next leaves of a run, each a block, with themselves and their
+    /// later neighbours. Returns how many pairs of leaves were compared: less than `most`, and then
+    /// one more leaf with its neighbours.
     pub(super) fn of_neighbours(
         &mut self,
         instructions: Instructions,
@@ -125,7 +130,7 @@ impl BlockTests {
     }
 }
 
-/// The candidates of pairs of blocks of two bodies.
+/// Pushes the candidates in pairs of blocks of two trees.
 #[inline(always)]
 fn of_two<I: Simd>(i: I, boxes: [Boxes; 2], pairs: &[BlockPair], found: &mut Buffer<Candidate>) {
     for &blocks in pairs {
@@ -133,7 +138,7 @@ fn of_two<I: Simd>(i: I, boxes: [Boxes; 2], pairs: &[BlockPair], found: &mut Buf
     }
 }
 
-/// The pairs of triangles of two blocks that overlap, of those in a mask.
+/// Pushes the pairs of triangles of two blocks whose boxes overlap and whose bit is set in a mask.
 #[inline(always)]
 fn push_overlapping<I: Simd>(
     i: I,
@@ -150,7 +155,7 @@ fn push_overlapping<I: Simd>(
     });
 }
 
-/// The candidates of pairs of blocks of one body: those that share no vertex.
+/// Pushes the candidates in pairs of blocks of one body: triangles that share no vertex.
 #[inline(always)]
 fn of_one<I: Simd>(i: I, body: OneBody, pairs: &[BlockPair], found: &mut Buffer<Candidate>) {
     let Boxes { firsts, boxes } = body.boxes;
@@ -177,9 +182,10 @@ fn of_one<I: Simd>(i: I, body: OneBody, pairs: &[BlockPair], found: &mut Buffer<
     }
 }
 
-/// The next of a run of leaves and their neighbours, with the pairs of triangles that share no
-/// vertex and, where there are quantized boxes, are not surely apart; those that have such pairs.
-/// Returns how many pairs of leaves it looked at.
+/// Filters the next leaves of a run with themselves and their neighbours. Keeps the pairs of
+/// triangles that share no vertex and that quantized boxes, where there are any, do not separate.
+/// Pairs of blocks without such triangles are dropped. Returns how many pairs of leaves were looked
+/// at.
 #[inline(always)]
 fn adjacent<I: Simd>(
     i: I,
@@ -198,7 +204,7 @@ fn adjacent<I: Simd>(
         compared.make_room(others.len() + 1);
         let mut push = |b: u32, pairs: u64| {
             let blocks = [a, BlockId(b)];
-            // Whether any is left cannot be predicted.
+            // Branch-free, since whether any is left cannot be predicted.
             compared.push_if(MaskedPair { blocks, pairs }, pairs != 0);
         };
         let all = others.iter().zip(masks);
@@ -214,8 +220,9 @@ fn adjacent<I: Simd>(
     looked_at
 }
 
-/// Keeps pairs of blocks that are no neighbours, with the pairs of triangles that are not surely apart; those that have such
-/// pairs. Of crowded blocks nothing is known; their pairs are put aside.
+/// Filters pairs of blocks that are no neighbours. Keeps the pairs of triangles that quantized
+/// boxes do not separate, and drops pairs of blocks without any. Crowded blocks have no known
+/// adjacency; their pairs are put aside.
 #[inline(always)]
 fn non_adjacent<I: Simd>(
     i: I,
@@ -238,7 +245,7 @@ fn non_adjacent<I: Simd>(
     }
 }
 
-/// The pairs of triangles that are to be compared whose boxes overlap.
+/// Pushes the pairs of triangles in masks whose exact boxes overlap.
 #[inline(always)]
 fn overlapping<I: Simd>(
     i: I,

@@ -1,4 +1,5 @@
-//! What all tasks of a descent work with, and how far each goes before it gives way to the others.
+//! Context of a descent: what its tasks share, and the limits after which each yields to the
+//! others.
 
 use super::tree_pair::TreePair;
 use crate::kernels::Instructions;
@@ -6,7 +7,7 @@ use crate::queries::Needs;
 use crate::threads::Interrupt;
 use crate::tree::BoxSet;
 
-/// What all tasks work with.
+/// Read-only context that all tasks of a descent share.
 pub(super) struct Context<'q, S> {
     pub(super) needs: Needs,
     pub(super) pair: &'q TreePair<'q, S, &'q BoxSet>,
@@ -15,15 +16,16 @@ pub(super) struct Context<'q, S> {
     pub(super) limits: TaskLimits,
 }
 
-/// How far a task goes.
+/// Limits after which a task yields.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TaskLimits {
-    /// Pairs of nodes that are taken from the stack at once.
+    /// Batch size: pairs of nodes that are taken from the stack at once.
     pub(super) batch: usize,
-    /// With so many pairs of leaves on its list, a task tests them.
+    /// Pairs of leaves on the list of a task from which it tests them.
     pub(super) leaf_pairs: usize,
-    /// After so many pairs of blocks, hits are shown to a visitor, and pairs of nodes distributed anew.
+    /// Pairs of blocks after which hits are shown to a visitor, and pairs of nodes distributed
+    /// anew.
     pub(super) block_pairs: usize,
-    /// With so many pairs of nodes on its stack, a task gives some to others.
+    /// Pairs of nodes on the stack of a task from which it gives some to others.
     pub(super) stack: usize,
 }

@@ -1,4 +1,4 @@
-//! The loop of the traversal, the same for two trees and for one, and for every kind of query.
+//! Main loop of the traversal, for two trees or one, and for every kind of query.
 
 use super::context::{Context, TaskLimits};
 use super::task::{Tasks, are_free, left_out};
@@ -13,47 +13,53 @@ use crate::tree::{BoxSet, NodePair};
 use crate::update::{DirtySet, Refit};
 use std::ops::ControlFlow;
 
-/// Of a visitor, the first batch is one pair of nodes, and batches double: if it stops at the first hit, few boxes were made that it
-/// did not need. On the two spheres from contact on, 16 instead made 1,841 boxes where this makes 520, and took 1.8 times as long.
+/// First batch for a visitor, in pairs of nodes; batches double. If it stops at the first hit, few
+/// boxes were made that it did not need. On the two spheres from contact on, 16 made 1,841 boxes
+/// where 1 makes 520, and took 1.8 times as long.
 const FIRST_BATCH: usize = 1;
-/// The most pairs of nodes that a task takes at once. It is so short that their wide nodes stay in cache.
+/// Most pairs of nodes that a task takes at once: few enough that their wide nodes stay in cache.
 const LONGEST_BATCH: usize = 256;
-/// When a task has this many pairs of leaves, it tests them after the batch at hand.
+/// Pairs of leaves of a task from which it tests them, after the batch at hand.
 const MOST_LEAF_PAIRS: usize = 512;
-/// The same where threads share the tasks. It is more, because each thread has a cache of its own, and all wait for the last.
+/// Pairs of leaves of a task from which it tests them, where threads share the tasks. More than for
+/// one thread: each has a cache of its own, and all wait for the last.
 const MOST_LEAF_PAIRS_SHARED: usize = 2048;
-/// The most pairs of blocks that a task tests, or a few more, before a visitor is shown hits. This bounds memory whatever the leaf size is.
+/// Most pairs of blocks, or a few more, that a task tests before a visitor is shown hits. This
+/// bounds memory for any leaf size.
 const MOST_BEFORE_SHOWN: usize = 8192;
-/// As soon as there are this many pairs of nodes they are distributed to several tasks, whatever the number of threads is; but not where
-/// one thread wants all and waits for no boxes.
+/// Pairs of nodes from which they are distributed to several tasks, for any number of threads. Not
+/// used where one thread wants all hits and waits for no boxes.
 const ENOUGH_TO_DISTRIBUTE: usize = 128;
-/// The number of tasks where they ask for boxes: few, so that all of them are at work in about one place of the trees.
+/// Number of tasks where boxes may be stale: few, so that all work in about one place of the trees.
 const TASKS: usize = 8;
-/// The number of tasks a thread, where they ask for boxes and all hits are wanted, if that makes more than [`TASKS`]. The hits found and
-/// the boxes made are then the same in any order.
+/// Tasks per thread where boxes may be stale and all hits are wanted, if that makes more than
+/// [`TASKS`]. The hits found and the boxes made are then the same in any order.
 const TASKS_A_THREAD: usize = 2;
-/// The number of tasks where all boxes are valid, and known to be: many, so that none waits long for another.
+/// Number of tasks where all boxes are known to be valid: many, so that none waits long for
+/// another.
 const FREE_TASKS: usize = 32;
-/// So many leaves are worth a task of their own, to be tested with their neighbours.
+/// Fewest leaves of a task that tests them with their neighbours: fewer are not worth a task.
 const FEWEST_LEAVES: usize = 64;
-/// The most pairs of nodes that are distributed at once.
+/// Most pairs of nodes that are distributed at once.
 const DISTRIBUTED: usize = 512;
 
-/// Buffers, kept from query to query.
+/// Buffers of a descent, kept from query to query.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
     /// Lists of wide nodes, for the update.
     pub(crate) wide_nodes: [Vec<WideNodeId>; 2],
-    /// Wide nodes or leaves that are to be refitted, of all tasks together: of the first tree, or the only one, and of the second.
+    /// Wide nodes or leaves that are to be refitted, of all tasks together: of the first or only
+    /// tree, and of the second.
     pub(crate) reached: [DirtySet; 2],
-    /// Pairs of nodes that were not distributed yet, and those that are being distributed.
+    /// Pairs of nodes that are not distributed yet. `distributed` holds pairs on their way to
+    /// tasks.
     reserve: Buffer<NodePair>,
     distributed: Vec<NodePair>,
     sizes: Sizes,
 }
 
 impl Scratch {
-    /// At the beginning of every query: whether it wants all there is.
+    /// Begins a query, which wants all hits or not: sets the sizes of its first batches.
     pub(crate) fn begin(&mut self, wants_all: bool) {
         self.sizes = if wants_all {
             Sizes::LARGEST
@@ -63,7 +69,8 @@ impl Scratch {
     }
 }
 
-/// How many pairs a task takes at once. For a visitor they double over a query, whatever it has asked before.
+/// Sizes of a task's batches, in pairs. For a visitor they double over a query, whatever earlier
+/// queries did.
 #[derive(Clone, Copy, Debug)]
 struct Sizes {
     batch: usize,
@@ -86,7 +93,7 @@ impl Sizes {
         blocks: MOST_BEFORE_SHOWN,
     };
 
-    /// Limits of a task; at most so many pairs of leaves are on its list.
+    /// Limits of a task, with at most `leaves` pairs of leaves on its list.
     fn limits(&self, leaves: usize) -> TaskLimits {
         TaskLimits {
             batch: self.batch,
@@ -105,8 +112,8 @@ impl Sizes {
     }
 }
 
-/// Tests all leaves that overlap, and shows what is found, until a visitor breaks. The order in which that sees hits is deterministic, not
-/// sorted. Interrupted, it breaks as well, at no hit.
+/// Tests all pairs of leaves that overlap, and shows the hits, until a visitor breaks. A visitor
+/// sees hits in a deterministic order, which is not sorted. An interrupt breaks as well, at no hit.
 pub(crate) fn descend<S: Coordinate>(
     refit: Refit,
     needs: Needs,
@@ -135,7 +142,7 @@ pub(crate) fn descend<S: Coordinate>(
         let view = pair.view();
         let now = context(refit, needs, &view, limits);
         tasks.run(executor, used, &|task, work| task.advance(&now, work));
-        // What a task that was not run found before is not to be shown again.
+        // A task that was not run still has its earlier hits, which must not be shown again.
         if executor.is_interrupted() {
             return ControlFlow::Break(());
         }
@@ -152,7 +159,7 @@ pub(crate) fn descend<S: Coordinate>(
             if last || round.leaves >= limits.leaf_pairs * round.working.max(1) {
                 refit_leaves(refit, pair, tasks, used, scratch, statistics);
                 if tasks.wants_all() && executor.are_many() {
-                    // The same hits are found in any order.
+                    // Order is free here: the same hits are found in any.
                     rebalance(tasks, used);
                 }
                 while !are_all_tested(tasks, used) {
@@ -185,18 +192,19 @@ pub(crate) fn descend<S: Coordinate>(
     ControlFlow::Continue(())
 }
 
-/// What tasks have come to when each has gone as far as it could.
+/// Sum over all tasks after each has gone as far as it could.
 #[derive(Default)]
 struct Round {
     node_pairs: u64,
-    /// How many have pairs of nodes left.
+    /// Number of tasks that have pairs of nodes left.
     working: usize,
-    /// Pairs of leaves of all of them.
+    /// Number of pairs of leaves of all tasks.
     leaves: usize,
     are_all_tested: bool,
 }
 
-/// Takes the wide nodes that tasks ask for, and sums up the rest. Of one tree, what is asked for on both sides is one.
+/// Takes the stale wide nodes that tasks need, and sums up the rest. For one tree, both sides go to
+/// the same set.
 fn gather<S>(
     tasks: &mut dyn Tasks<S>,
     used: usize,
@@ -220,12 +228,13 @@ fn gather<S>(
     round
 }
 
-/// Whether tasks have tested all pairs of leaves that they have.
+/// Whether all tasks have tested all their pairs of leaves.
 fn are_all_tested<S>(tasks: &mut dyn Tasks<S>, used: usize) -> bool {
     (0..used).all(|number| tasks.one(number).all_tested())
 }
 
-/// Tests all leaves of a body with themselves and their neighbours, where the descent has left these out.
+/// Tests all leaves of a body with themselves and their neighbours, if the descent leaves these
+/// out.
 fn test_neighbours<S: Coordinate>(
     refit: Refit,
     needs: Needs,
@@ -283,10 +292,10 @@ fn context<'q, S>(
     }
 }
 
-/// How many tasks a query is distributed to, and how many pairs of leaves of one are enough to test them.
+/// Number of tasks a query is distributed to, and of pairs of leaves from which one tests them.
 fn shares(are_free: bool, wants_all: bool, executor: Executor) -> (usize, usize) {
     if are_free && wants_all && !executor.are_many() {
-        // What is found is the same in any order, and lists of one task are longer than those of many.
+        // The hits are the same in any order, and one task has longer lists than many.
         (1, MOST_LEAF_PAIRS)
     } else if are_free {
         (FREE_TASKS, MOST_LEAF_PAIRS)
@@ -331,7 +340,7 @@ fn distribute<S>(tasks: &mut dyn Tasks<S>, used: usize, scratch: &mut Scratch) {
     }
 }
 
-/// Gives tasks that have found few pairs of leaves some of those of others that have found many.
+/// Moves pairs of leaves from tasks that have found many to tasks that have found few.
 fn rebalance<S>(tasks: &mut dyn Tasks<S>, used: usize) {
     let all: usize = (0..used)
         .map(|number| tasks.one(number).walk.found.leaves.len())

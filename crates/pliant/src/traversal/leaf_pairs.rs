@@ -1,7 +1,9 @@
-//! Leaves that overlap: which of their triangles are candidates, or which runs of triangles the kind of query is shown.
+//! Tests of overlapping leaves: which of their triangles are candidates, or which runs the kind is
+//! shown.
 //!
-//! A leaf is one block of up to eight triangles, or several. Pairs of blocks are compared (`block_pairs`); what they leave, candidates,
-//! is decided some thousands at a time. Of a body with itself every pair of triangles comes up once, and none with itself. Where leaves are
+//! A leaf is one block of up to eight triangles, or several. Pairs of blocks are compared
+//! (`block_pairs`), and their candidates decided some thousands at a time. Invariant: in a body
+//! with itself every pair of triangles comes up once, and none with itself. Where leaves are
 //! blocks, neighbours in the mesh are not found by the descent but gone through list by list.
 
 use super::block_pairs::{BlockPair, BlockTests, Boxes, OneBody};
@@ -16,7 +18,7 @@ use std::ops::Range;
 /// Pairs of blocks compared before their candidates are decided: at most 64 candidates each.
 const BLOCK_PAIRS_AT_ONCE: usize = 64;
 
-/// Where in a list of pairs of leaves: a pair, a block of its first leaf, a block of its second.
+/// Position in a list of pairs of leaves: a pair, a block of its first leaf, a block of its second.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Cursor {
     pub(super) pair: usize,
@@ -24,7 +26,7 @@ pub(super) struct Cursor {
     b: u32,
 }
 
-/// The lists on the way from pairs of leaves to what a kind is shown.
+/// Lists on the way from pairs of leaves to the kind of query.
 #[derive(Debug, Default)]
 pub(super) struct LeafTests {
     block_pairs: Vec<BlockPair>,
@@ -33,8 +35,8 @@ pub(super) struct LeafTests {
 }
 
 impl LeafTests {
-    /// Tests pairs of leaves from a cursor on, up to `most` pairs of their blocks; returns the cursor where it stopped. The boxes of the
-    /// triangles in them are valid.
+    /// Tests pairs of leaves from a cursor on, up to `most` pairs of their blocks. Returns the
+    /// cursor where it stopped. The boxes of the triangles in them must be valid.
     pub(super) fn test<S: Coordinate>(
         &mut self,
         context: &Context<S>,
@@ -74,7 +76,7 @@ impl LeafTests {
         cursor
     }
 
-    /// Tests pairs of blocks.
+    /// Compares the listed pairs of blocks, and has their candidates decided.
     fn test_blocks<S: Coordinate>(
         &mut self,
         context: &Context<S>,
@@ -104,7 +106,7 @@ impl LeafTests {
         }
     }
 
-    /// Tests pairs of leaves of one triangle: its box is the leaf's, which overlaps.
+    /// Tests pairs of leaves of one triangle each, whose box is the leaf's and overlaps.
     fn test_triangles<S: Coordinate>(
         &mut self,
         context: &Context<S>,
@@ -131,9 +133,9 @@ impl LeafTests {
         }
     }
 
-    /// Tests leaves, each a block, that are neighbours, and each with itself: the next of a run of leaves and their later neighbours,
-    /// until as many pairs of leaves were looked at as the limits allow or enough was found. Takes
-    /// these leaves from the run.
+    /// Tests the next leaves of a run, each a block, with themselves and their later neighbours.
+    /// Stops when the limit of pairs is reached or enough was found. Takes the tested leaves from
+    /// the run.
     pub(super) fn test_neighbours<S: Coordinate>(
         &mut self,
         context: &Context<S>,
@@ -161,7 +163,7 @@ impl LeafTests {
         }
     }
 
-    /// Has the kind decide candidates, without those that were taken out of their mesh.
+    /// Has the kind decide the candidates, without triangles that were removed from their mesh.
     fn decide<S: Coordinate>(
         &mut self,
         context: &Context<S>,
@@ -178,7 +180,7 @@ impl LeafTests {
     }
 }
 
-/// What a kind works with.
+/// Context of a test of leaves, for the kind of query.
 fn leaf_test<'q, S: Coordinate>(context: &Context<'q, S>) -> LeafTest<'q, S> {
     let [a, b] = context.pair.sides();
     LeafTest {
@@ -194,7 +196,8 @@ fn leaf_test<'q, S: Coordinate>(context: &Context<'q, S>) -> LeafTest<'q, S> {
     }
 }
 
-/// Pairs of blocks of pairs of leaves, from a cursor on, up to `most` of them; returns the cursor where it stopped.
+/// Lists the pairs of blocks in pairs of leaves, from a cursor on, up to `most`. Returns the cursor
+/// where it stopped.
 fn block_pairs(
     itself: bool,
     [a, b]: [&Leaves; 2],

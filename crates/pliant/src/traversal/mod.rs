@@ -1,38 +1,45 @@
-//! From pairs of nodes to hits: tree against tree, and a tree against itself, for any kind of query.
+//! Dual-tree traversal: pairs of nodes whose boxes overlap, down to pairs of leaves and their
+//! candidates.
 //!
 //! ```text
 //! one task, its stack = [(root, root)]                      boxes valid and overlapping
 //! while some task has pairs of nodes:
-//!     distribute:  if one has none, or there is only one yet and it has many: the last of all pairs to all tasks
-//!     every task, until it asks for boxes that are stale, or its list of leaves is long:
+//!     distribute:  if a task is idle, or the only one has many: the last pairs, to all tasks
+//!     every task, until it needs stale boxes, or its list of pairs of leaves is long:
 //!         take a batch from the top of its stack            hundreds; of a visitor 1 pair, then 2, 4, ...
-//!         expand it: children whose boxes overlap onto the stack, pairs of leaves onto the list
-//!     refit:       the wide nodes that they ask for         only refitting writes boxes
+//!         expand it: children that overlap onto the stack, pairs of leaves onto the list
+//!     refit:       the stale wide nodes that tasks need     only refitting writes boxes
 //!     when the lists are long, or the stacks empty:
 //!         refit:   the boxes of the triangles in these leaves
-//!         every task: test leaves: triangles whose boxes overlap are candidates; the kind of query decides these
+//!         every task: test leaves: triangles whose boxes overlap are candidates,
+//!                     which the kind of query decides
 //!         show:    the hits, to a visitor in order; every task shows a collector its own
 //! ```
 //!
-//! Where all boxes were completed at once, those of triangles too, tasks are *free*: leaves are tested on the way, and nothing is waited
-//! for. So it is for a body with itself if the update makes all its boxes ahead, as the default does; leaves that share a vertex are then
-//! left out of the descent, and tested afterwards, list by list (`leaf_pairs`).
+//! Idea: tasks descend depth first in batches from the top of a stack, with no recursion.
+//! Invariant: tasks and jobs of refitting write only lists, or boxes, of their own. A visitor sees
+//! the same hits in the same order whatever the number of threads is. Difference from the paper,
+//! which descends pair by pair: batches change the order in which boxes are reached. Where all hits
+//! are wanted, the boxes reached are the same.
 //!
-//! Tasks and jobs of refitting write lists, or boxes, of their own; so threads share the work. How many tasks there are, and when
-//! leaves are tested, may depend on the number of threads where all hits are wanted: the same boxes are then made and the same hits
-//! found, which are sorted. What a visitor is shown, and in which order, never depends on it. Tasks are given what is last of all,
-//! so that together they are at work in one place of the trees: given all there is, they would read from everywhere at once. Batches
-//! come from the top of a stack, which bounds memory by depth x batch whatever the input is (all triangles in one place
-//! included), and needs no recursion. Batches are long from the beginning where all hits are wanted: each ends in waiting for
-//! the last task. For a visitor they start small, so that one that wants the first hit gets it after a few nodes, and double.
-//!
-//! What is done with leaves is behind a door, `queries::LeafWork`, of which every task has one; nothing here is compiled for a kind of
-//! query, or for a degree.
-//!
-//! `nearest` is another loop, for two trees that are apart: not what overlaps is looked for, but what is least apart.
-//!
-//! A node is one box, a lane of a wide node (Embree calls the wide node a node). Differs from the paper, which descends pair by pair;
-//! where all hits are wanted the boxes reached are the same but for the order.
+//! - **Memory** is bounded by depth x batch for any input, even with all triangles in one place.
+//! - **Batches**: long from the beginning where all hits are wanted, since each ends with a wait
+//!   for the last task. For a visitor they start small and double: one that wants the first hit
+//!   gets it after a few nodes.
+//! - **Distribution**: tasks get the last pairs only. They then work in one place of the trees,
+//!   instead of reading from everywhere at once.
+//! - **Threads**: where all hits are wanted, the number of tasks, and when leaves are tested, may
+//!   depend on the number of threads. The same boxes are then made, and the same hits found, which
+//!   are sorted.
+//! - **Free tasks**: where an update completed all boxes, including the triangles' boxes, tasks
+//!   test leaves on the way and wait for nothing. This is the default for a body with itself. The
+//!   descent then leaves out leaves that share a vertex; `leaf_pairs` tests them afterwards, list
+//!   by list.
+//! - **Kinds of query**: every task has a `queries::LeafWork`, which processes leaves. Nothing here
+//!   is compiled for a kind of query, or for a degree.
+//! - `nearest` is a branch and bound over two trees that are apart: it looks for the smallest gap,
+//!   not for overlaps.
+//! - **Node**: one box, a lane of a wide node (Embree calls the wide node a node).
 
 mod block_pairs;
 mod context;

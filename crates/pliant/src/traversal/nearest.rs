@@ -1,16 +1,12 @@
-//! Branch and bound: the triangles of two trees, those with the nearest boxes first, until no box that is left is near enough.
+//! Branch and bound over two trees: triangles by increasing gap of their boxes, down to the least
+//! distance.
 //!
-//! A stack holds pairs of nodes with the square of the gap of their boxes, the nearest on top. What is further apart than the limit is
-//! passed over; the limit becomes smaller as triangles are measured. Boxes are made when they are reached, as everywhere: of two bodies
-//! that are apart those near the closest points, and few others.
-//!
-//! **A gap never is larger than the distance of what is in the boxes.** Sides of boxes are `f32`. In `f64` a difference of two, what is
-//! taken off it, its square, two sums and what is taken off in the end are rounded by 2^-53 each: eight roundings of a square at most, and
-//! sixteen are taken off. A thread that flushes subnormal numbers reads sides that are off by less than 2^-126: 2^-120 is taken off each
-//! difference.
-//!
-//! Larsen, Gottschalk, Lin and Manocha (2000, *Fast Distance Queries with Rectangular Swept Sphere Volumes*) descend the same way; here
-//! both nodes are opened at once, all their children compared side by side, and boxes are stale until they are reached.
+//! A stack holds pairs of nodes with the squared gap of their boxes, the nearest on top. Pairs with
+//! a gap above the limit are pruned; the limit shrinks as triangles are measured. Boxes are
+//! refitted only when reached: near the closest points of two bodies, and few others. Larsen,
+//! Gottschalk, Lin and Manocha (2000, *Fast Distance Queries with Rectangular Swept Sphere
+//! Volumes*) descend the same way. Differences: both nodes are opened at once, all their children
+//! are compared with SIMD, and boxes are stale until reached.
 
 use super::tree_pair::{Side, TreePair};
 use crate::geometry::{Aabb, Shape};
@@ -24,7 +20,7 @@ use crate::tree::{Child, Leaves, NodeLanes};
 use crate::update::{DirtySet, Refit};
 use std::ops::ControlFlow;
 
-/// Buffers, kept from query to query.
+/// Buffers of the search, kept from query to query.
 #[derive(Debug, Default)]
 pub(crate) struct NearestScratch {
     stack: Vec<(f64, NodePair)>,
@@ -33,10 +29,15 @@ pub(crate) struct NearestScratch {
     lists: [Vec<WideNodeId>; 2],
 }
 
-/// Gives the square of the distance up to which triangles are looked for from now on, after it has looked at two of them, of these shapes.
+/// Measures a candidate of two shapes. Returns the squared distance up to which the search goes on.
 pub(crate) type Measure<'m, S> = &'m mut dyn FnMut([&Shape<'_, S>; 2], Candidate) -> f64;
 
-/// The square of the gap of two boxes, or somewhat less.
+/// Squared gap of two boxes: a lower bound of the squared distance of anything inside.
+///
+/// Sides of boxes are `f32`, the arithmetic is `f64`. These steps round by 2^-53 each: a
+/// difference, the amount taken off it, its square, two sums, and the final reduction. That is at
+/// most eight roundings of a square; sixteen are taken off. A thread that flushes subnormal numbers
+/// reads sides that are off by less than 2^-126. So 2^-120 is taken off each difference.
 pub(crate) fn gap_square(a: &Aabb, b: &Aabb) -> f64 {
     let mut square = 0.0;
     for axis in 0..3 {
@@ -48,8 +49,8 @@ pub(crate) fn gap_square(a: &Aabb, b: &Aabb) -> f64 {
     square * (1.0 - 8.0 * f64::EPSILON)
 }
 
-/// Shows `measure` all triangles of two bodies whose boxes are not further apart than the limit then is; many of those are shown before
-/// others that are further apart. Breaks if interrupted.
+/// Shows `measure` all triangles of two bodies whose boxes have at most the gap of the limit at
+/// that time. Triangles with near boxes mostly come before others. Breaks if interrupted.
 pub(crate) fn nearest<S: Coordinate>(
     refit: Refit,
     pair: &mut TreePair<S>,
@@ -96,7 +97,7 @@ pub(crate) fn nearest<S: Coordinate>(
     ControlFlow::Continue(())
 }
 
-/// Puts the pairs of children that are near enough onto the stack, the nearest last.
+/// Pushes the pairs of children with a gap within the limit, the nearest last.
 fn push_children<S: Coordinate>(
     refit: Refit,
     [a, b]: [&Side<'_, S>; 2],
@@ -143,7 +144,7 @@ fn push_children<S: Coordinate>(
     stack[before..].sort_unstable_by(|(a, _), (b, _)| b.total_cmp(a));
 }
 
-/// Measures the triangles of two leaves, the nearest boxes first; returns the limit then.
+/// Measures the triangles of two leaves by increasing gap of their boxes. Returns the new limit.
 fn among_leaves<S: Coordinate>(
     refit: Refit,
     pair: &mut TreePair<S>,
@@ -180,7 +181,7 @@ fn among_leaves<S: Coordinate>(
     limit
 }
 
-/// The triangles of two leaves whose boxes are near enough, the nearest first.
+/// Lists the triangles of two leaves whose boxes have a gap within the limit, the nearest first.
 fn near_triangles<S: Coordinate>(
     refit: Refit,
     sides: [&Side<'_, S>; 2],
@@ -218,7 +219,7 @@ mod tests {
     use pliant_oracle::{Random, compare_length};
     use std::cmp::Ordering;
 
-    /// Boxes of some scale, of which some overlap, some are beside each other and some far away.
+    /// Boxes of some scale: some overlap, some are side by side, some are far away.
     fn boxes(random: &mut Random, scale: f32) -> Vec<Aabb> {
         let mut side = || {
             let x = (random.below(64) as f32 - 32.0) * 0.37 * scale;
@@ -235,7 +236,7 @@ mod tests {
         boxes.collect()
     }
 
-    /// Two points of boxes that are nearest.
+    /// Nearest points of two boxes.
     fn nearest_points(a: &Aabb, b: &Aabb) -> [[f64; 3]; 2] {
         let mut points = [[0.0; 3]; 2];
         for axis in 0..3 {
@@ -282,7 +283,7 @@ mod tests {
                     let compare = |x: f64| compare_length(&[(1.0, p), (-1.0, q)], x);
                     let surely = gap * (1.0 - f64::EPSILON);
                     assert_ne!(compare(surely), Ordering::Less, "{a:?} {b:?}");
-                    // And no more is taken off than is said.
+                    // The lower bound is tight: no more is taken off than documented.
                     let most = (gap + f64::powi(0.5, 118)) * (1.0 + f64::powi(0.5, 48));
                     assert_ne!(compare(most), Ordering::Greater, "{a:?} {b:?}");
                     let is_set = mask >> bit & 1 == 1;

@@ -1,10 +1,10 @@
-//! Rounds: what a task does of many pairs of trees at once, where several threads share a query.
+//! Rounds of a traversal over many pairs of trees at once, for queries that several threads share.
 //!
-//! Idea: breadth first over all pairs of trees. In a round tasks go on until nothing is left but what
-//! waits for stale boxes; these are refitted between two rounds, for all pairs together. Invariant: the
-//! same boxes are made, and the same pairs looked at, as if one task went through everything, so
-//! neither hits nor counters depend on the number of threads. Difference from `descent`, which keeps an
-//! order for visitors: tasks with much to do give some to those that have nothing.
+//! Idea: breadth first over all pairs of trees. In a round, tasks go on until all pairs of nodes
+//! left wait for stale boxes, which are then refitted together. Invariant: a round makes the same
+//! boxes and compares the same pairs as a single task would. So neither hits nor counters depend on
+//! the number of threads. Difference from `descent`, which keeps an order for visitors: busy tasks
+//! give work to idle ones.
 
 use super::context::{Context, TaskLimits};
 use super::share::{Item, Piece, Share};
@@ -15,9 +15,9 @@ use crate::queries::{LeafWork, Needs};
 use crate::threads::{Exchange, Interrupt};
 use crate::tree::{BoxSet, LeafPair, NodePair};
 
-/// Items of one pair of trees that a task takes at once.
+/// Items of one pair of trees that a task takes at once: larger batches leave less to share.
 const AT_ONCE: usize = 512;
-/// How far a task goes before it looks at what it has found, and at who waits.
+/// Limits after which a task looks at its hits, and at whether another task waits for work.
 const LIMITS: TaskLimits = TaskLimits {
     batch: 256,
     leaf_pairs: 512,
@@ -25,29 +25,30 @@ const LIMITS: TaskLimits = TaskLimits {
     stack: usize::MAX,
 };
 
-/// What all tasks of a round work with.
+/// Context that all tasks of a round share.
 pub(crate) struct Round<'q, S> {
     pub(crate) needs: Needs,
     pub(crate) instructions: Instructions,
     pub(crate) interrupt: &'q Interrupt<'q>,
     pub(crate) exchange: &'q Exchange<'q, Item>,
-    /// The pair of trees of a number, and the numbers of these trees.
+    /// Looks up a pair of trees, and the numbers of its trees, by the number of the pair.
     pub(crate) pair: PairOf<'q, S>,
 }
 
-/// Says which trees a pair is of.
+/// Lookup of a pair of trees by its number: the trees, and their numbers. None if there is nothing
+/// to be done for it.
 pub(crate) type PairOf<'q, S> =
     &'q (dyn Fn(u32) -> Option<(TreePair<'q, S, &'q BoxSet>, [u32; 2])> + Sync);
 
-/// How many leaves of a body that meets itself are to be tested with their neighbours, which the
-/// descent leaves out.
+/// Number of leaves of a body that are to be tested with themselves and their neighbours, since its
+/// descent leaves these pairs out. Zero if the descent finds them.
 pub(crate) fn leaves_left_out<S: Coordinate>(needs: &Needs, side: View<'_, S>) -> usize {
     let leaves = side.tree.leaves.len();
     left_out(needs, &TreePair::One(side)).map_or(0, |_| leaves)
 }
 
 impl Task {
-    /// Does its share of a round, and what others give it.
+    /// Runs this task's share of a round, and items that others give it meanwhile.
     pub(crate) fn round<S: Coordinate>(&mut self, round: &Round<S>, work: &mut dyn LeafWork<S>) {
         work.clear();
         while !self.share.todo.is_empty() || round.exchange.take(&mut self.share.todo) {
@@ -91,7 +92,8 @@ impl Task {
         work.hand_over();
     }
 
-    /// Expands the pairs of nodes of one pair of trees, from `first` on, and all that they become.
+    /// Expands the pairs of nodes of one pair of trees in `todo[first..]`, and all pairs of nodes
+    /// below them.
     fn expand_some<S: Coordinate>(
         &mut self,
         context: &Context<S>,
@@ -132,7 +134,7 @@ impl Task {
                 break;
             }
             if stack > 1 && round.exchange.is_wanted() {
-                // The first are the uppermost: they become most.
+                // The first are the uppermost: most work lies below them.
                 let give = &mut |given: &[NodePair]| {
                     round.exchange.give(given.iter().copied().map(item));
                 };
@@ -145,7 +147,7 @@ impl Task {
         Share::note(&mut self.share.reached, &mut self.walk.reached, numbers);
     }
 
-    /// Tests the pairs of leaves of one pair of trees, from `first` on.
+    /// Tests the pairs of leaves of one pair of trees in `todo[first..]`.
     fn test_leaves<S: Coordinate>(
         &mut self,
         context: &Context<S>,
@@ -160,7 +162,7 @@ impl Task {
         self.test_all(context, work);
     }
 
-    /// Tests all pairs of leaves on its list, unless there are too many hits.
+    /// Tests all pairs of leaves on the list, unless there are too many hits, and empties it.
     fn test_all<S: Coordinate>(&mut self, context: &Context<S>, work: &mut dyn LeafWork<S>) {
         while !self.all_tested() && work.has_room() && !context.interrupt.is_set() {
             self.test_next(context, work);
@@ -168,7 +170,8 @@ impl Task {
         self.forget_leaves();
     }
 
-    /// Tests the runs of leaves of one tree, from `first` on, with themselves and their neighbours.
+    /// Tests the runs of leaves of one tree in `todo[first..]`, with themselves and their
+    /// neighbours.
     fn test_runs<S: Coordinate>(
         &mut self,
         context: &Context<S>,

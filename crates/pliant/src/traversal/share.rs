@@ -1,45 +1,46 @@
-//! A task's share of a round: pieces of work of many pairs of trees, and what becomes of them.
+//! Share of a task in a round: its items of work, over many pairs of trees, and its results.
 
 use crate::held::held;
 use crate::tree::{LeafPair, NodePair};
 use crate::update::DirtySet;
 
-/// Some work of one pair of trees.
+/// Item of work of one pair of trees.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Item {
-    /// The number of the pair of trees.
+    /// Number of the pair of trees.
     pub(crate) pair: u32,
     pub(crate) piece: Piece,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Piece {
-    /// Two nodes, to be expanded.
+    /// Pair of nodes that is to be expanded.
     Nodes(NodePair),
-    /// Two leaves, to be tested; all boxes in them are valid.
+    /// Pair of leaves that is to be tested; all boxes in both are valid.
     Leaves(LeafPair),
-    /// A run of leaves, from a first to before an end, to be tested with themselves and their neighbours.
+    /// Run of leaves, as start and end, that are to be tested with themselves and their neighbours.
     Run([u32; 2]),
 }
 
-/// What a task has of a round, and leaves for the next.
+/// Items of a task in a round, and the items and stale nodes it leaves for the next.
 #[derive(Debug, Default)]
 pub(crate) struct Share {
-    /// What is still to be done.
+    /// Items of this round that are not yet processed.
     pub(crate) todo: Vec<Item>,
-    /// Pairs of nodes below which boxes are stale.
+    /// Pairs of nodes that wait, since boxes below them are stale.
     pub(crate) waiting: Vec<Item>,
     /// Pairs of leaves that are to be tested.
     pub(crate) leaves: Vec<Item>,
-    /// Wide nodes that are stale, and leaves that were reached, by the numbers of trees.
+    /// Stale wide nodes that were reached, by the number of the tree. `reached` holds leaves
+    /// likewise.
     pub(crate) stale: Vec<DirtySet>,
     pub(crate) reached: Vec<DirtySet>,
-    /// Pairs of nodes and candidates that were looked at, by the numbers of pairs.
+    /// Counters by the number of a pair of trees: pairs of nodes, and candidates.
     pub(crate) looked_at: Vec<(u32, [u64; 2])>,
 }
 
 impl Share {
-    /// Takes what a task has noted of the two trees.
+    /// Moves the sets that a walk has noted for two trees to the sets of these trees.
     pub(super) fn note(sets: &mut Vec<DirtySet>, noted: &mut [DirtySet; 2], trees: [u32; 2]) {
         for (tree, noted) in trees.into_iter().zip(noted) {
             if !noted.is_empty() {

@@ -1,15 +1,16 @@
-//! Where hits go: to a visitor, who may stop at any, or to a collector, which wants all.
+//! Sinks of hits: a visitor, which may stop at any hit, or a collector, which wants all.
 
 use std::ops::ControlFlow;
 
-/// Is shown every hit once, some at a time, until it breaks with the place of the one at which it stops, which may be the first.
+/// Sequential sink: is shown every hit once, in slices. Breaks with the place in the slice of the
+/// hit at which it stops, which may be the first.
 pub(crate) type Visitor<'s, H> = &'s mut dyn FnMut(&[H]) -> ControlFlow<usize>;
 
-/// Is shown every hit once, some at a time, by any thread and in any order, until it breaks because there are too many; then it
-/// always does.
+/// Concurrent sink: is shown every hit once, in slices, by any thread and in any order. Breaks when
+/// there are too many hits, and from then on always.
 pub(crate) type Collector<'s, H> = &'s (dyn Fn(&[H]) -> ControlFlow<()> + Sync);
 
-/// Where hits go: as they are to a collector, as they are shown to a visitor.
+/// Sink of a query's hits: internal hits (`H`) to a collector, public ones (`V`) to a visitor.
 pub(crate) enum Sink<'s, H, V> {
     Visitor(Visitor<'s, V>),
     Collector(Collector<'s, H>),

@@ -1,7 +1,7 @@
-//! A task of a descent: some of its pairs of nodes, and all that comes of them.
+//! Task of a descent: some pairs of nodes, and everything found below them.
 //!
-//! A task goes on by itself, depth first, on a stack and lists of its own, for as long as the boxes it asks for are valid. What becomes
-//! of leaves that overlap its `LeafWork` knows; which that is depends on the kind of query.
+//! A task goes on alone, depth first, on its own stack and lists, as long as the boxes it needs are
+//! valid. Its `LeafWork`, made by the kind of query, processes leaves that overlap.
 
 use super::context::Context;
 use super::leaf_pairs::{Cursor, LeafTests};
@@ -16,48 +16,50 @@ use crate::threads::{Exchange, Executor};
 use crate::tree::{BoxSet, Neighbours};
 use std::ops::{ControlFlow, Range};
 
-/// Pairs of blocks that are tested before a task looks at what it has found.
+/// Pairs of blocks of triangles that are tested before a task checks whether it has found enough.
 const BLOCK_PAIRS_BEFORE_LOOK: usize = 128;
-/// The same of runs: two may have nine times as many elements near each other as two blocks have triangles.
+/// Pairs of runs that are tested before a task checks whether it has found enough. Fewer than of
+/// blocks: two runs may have nine times as many near elements as two blocks have triangles.
 const RUN_PAIRS_BEFORE_LOOK: usize = 32;
 
 /// A task, and its buffers, kept from query to query.
 #[derive(Debug, Default)]
 pub(crate) struct Task {
-    /// The way down: its stack, and pairs of leaves that are to be tested.
+    /// Walk down the trees: its stack, and the pairs of leaves that are to be tested.
     pub(super) walk: Walk,
-    /// Up to where the pairs of leaves were tested.
+    /// Position up to which the pairs of leaves were tested.
     cursor: Cursor,
-    /// Leaves that are still to be tested with themselves and their neighbours, where the descent leaves these out.
+    /// Leaves still to be tested with themselves and their neighbours, where the descent omits
+    /// these pairs.
     pub(super) run: Range<u32>,
-    /// The lists on the way from leaves to what the kind is shown.
+    /// Lists on the way from pairs of leaves to the kind of query.
     pub(super) tests: LeafTests,
-    /// Its share of the rounds of many pairs of trees.
+    /// Share of this task in the rounds of many pairs of trees.
     pub(crate) share: Share,
 }
 
-/// What a task is to do, with what the kind of query makes of it.
+/// Step of a task, run with the `LeafWork` that the kind of query has for it.
 pub(crate) type TaskWork<'w, S> = &'w (dyn Fn(&mut Task, &mut dyn LeafWork<S>) + Sync);
 
-/// The tasks of a query of some kind, each with a [`LeafWork`] of its own; kept from query to query.
+/// Tasks of a query of some kind, each with a [`LeafWork`] of its own; kept from query to query.
 pub(crate) trait Tasks<S> {
-    /// Whether all that is found is wanted, and in no order.
+    /// Whether the query wants all hits, in any order.
     fn wants_all(&self) -> bool;
-    /// Forgets what tasks that were used before were about. One is used from now on, of as many as there may be.
+    /// Clears tasks used before, and begins with a single one; later at most `most` are used.
     fn begin(&mut self, most: usize);
-    /// So many are used from now on.
+    /// Uses `count` tasks from this call on.
     fn use_all(&mut self, count: usize);
-    /// One of them.
+    /// Task of a number.
     fn one(&mut self, number: usize) -> &mut Task;
-    /// Has the first `count` do something, side by side where there are threads.
+    /// Runs a step of each of the first `count` tasks, in parallel where there are threads.
     fn run(&mut self, executor: Executor, count: usize, work: TaskWork<S>);
-    /// Shows what the first `count` have found to a visitor, and counts the work. Breaks if the visitor does, or if a collector has
-    /// enough, which was shown it before.
+    /// Shows the hits of the first `count` tasks to a visitor, and adds up their counters. Breaks
+    /// if the visitor does, or if a collector, which has seen its hits before, has enough.
     fn show(&mut self, count: usize, statistics: &mut Statistics) -> ControlFlow<()>;
 }
 
-/// Whether all boxes that the query reads are known to be valid because they were completed at once, so that tasks need not wait for any,
-/// and pairs of leaves can be tested as soon as they are found.
+/// Whether all boxes that the query reads are known to be valid, since an update completed them.
+/// Tasks then wait for no boxes, and test pairs of leaves as soon as they are found.
 pub(super) fn are_free<S: Coordinate>(needs: &Needs, sides: [&View<'_, S>; 2]) -> bool {
     let is_complete = |side: &&View<S>| {
         side.boxes.are_nodes_complete() && (!needs.triangles() || side.boxes.are_leaves_complete())
@@ -65,8 +67,9 @@ pub(super) fn are_free<S: Coordinate>(needs: &Needs, sides: [&View<'_, S>; 2]) -
     sides.iter().all(is_complete)
 }
 
-/// The neighbours in a body that meets itself, if the descent leaves them out: where they are known, leaves are blocks, and all boxes are
-/// valid. They overlap in any shape, so nothing is gained by looking for them.
+/// Neighbours of a body that meets itself, if the descent leaves them out. It does where they are
+/// known, leaves are blocks, and all boxes are valid. Neighbours overlap in any shape, so a descent
+/// to them gains nothing.
 pub(super) fn left_out<'p, S: Coordinate>(
     needs: &Needs,
     pair: &'p TreePair<'p, S, &'p BoxSet>,
@@ -79,7 +82,7 @@ pub(super) fn left_out<'p, S: Coordinate>(
     side.tree.neighbours().filter(|_| are_left_out)
 }
 
-/// How many pairs are tested before a task looks at what it has found.
+/// Number of pairs that are tested before a task checks whether it has found enough.
 fn before_look(needs: &Needs) -> usize {
     if needs.triangles() {
         BLOCK_PAIRS_BEFORE_LOOK
@@ -89,7 +92,7 @@ fn before_look(needs: &Needs) -> usize {
 }
 
 impl Task {
-    /// Forgets what it was about.
+    /// Clears the walk, the cursor and the run; buffers are kept.
     pub(crate) fn clear(&mut self) {
         self.walk.clear();
         self.cursor = Cursor::default();
@@ -106,8 +109,8 @@ impl Task {
         self.cursor.pair == self.walk.found.leaves.len()
     }
 
-    /// Goes on until it asks for boxes that are stale, has found enough, or nothing is left. What it asked for before is valid now.
-    /// Where it is free, leaves are tested on the way.
+    /// Goes on until it needs stale boxes, has found enough, or has no pair of nodes left. Boxes
+    /// that it needed before are valid now. A free task tests leaves on the way.
     pub(super) fn advance<S: Coordinate>(
         &mut self,
         context: &Context<S>,
@@ -136,12 +139,13 @@ impl Task {
         work.hand_over();
     }
 
-    /// Walks down until it asks for boxes that are stale, has found enough, or no pair of nodes is left.
+    /// Walks down until it needs stale boxes, has found enough, or has no pair of nodes left.
     fn walk<S: Coordinate>(&mut self, context: &Context<S>) {
         self.walk_on(context, None);
     }
 
-    /// Walks down, for a round until nothing is left but what waits for boxes, or others want some.
+    /// Walks down. With an exchange, defers pairs of nodes that need stale boxes, and stops if
+    /// another task waits for work.
     pub(super) fn walk_on<S: Coordinate>(
         &mut self,
         context: &Context<S>,
@@ -163,7 +167,8 @@ impl Task {
         self.walk.go(trees, &rules);
     }
 
-    /// Tests pairs of leaves until all were, or many, or enough was found.
+    /// Tests pairs of leaves until none is left, the limit of pairs of blocks is reached, or enough
+    /// was found.
     pub(super) fn test_some<S: Coordinate>(
         &mut self,
         context: &Context<S>,
@@ -184,7 +189,7 @@ impl Task {
         work.hand_over();
     }
 
-    /// Tests the next pairs of leaves, before it looks at what it has found.
+    /// Tests the next pairs of leaves, up to the next check of whether enough was found.
     pub(super) fn test_next<S: Coordinate>(
         &mut self,
         context: &Context<S>,
@@ -193,7 +198,7 @@ impl Task {
         self.test(context, work, before_look(&context.needs));
     }
 
-    /// Tests the next pairs of leaves, so many pairs of their blocks.
+    /// Tests the next pairs of leaves, up to `blocks` pairs of their blocks.
     fn test<S: Coordinate>(
         &mut self,
         context: &Context<S>,
@@ -204,7 +209,8 @@ impl Task {
         self.cursor = self.tests.test(context, work, leaves, self.cursor, blocks);
     }
 
-    /// Tests the next leaves of its run with themselves and their neighbours, until many were or enough was found.
+    /// Tests the next leaves of the run with themselves and their neighbours, until the limit is
+    /// reached or enough was found.
     pub(super) fn test_neighbours<S: Coordinate>(
         &mut self,
         context: &Context<S>,
@@ -217,7 +223,7 @@ impl Task {
         work.hand_over();
     }
 
-    /// Forgets the pairs of leaves, all of which were tested.
+    /// Clears the list of pairs of leaves, all of which were tested.
     pub(super) fn forget_leaves(&mut self) {
         self.walk.found.clear_leaves();
         self.cursor = Cursor::default();

@@ -1,4 +1,4 @@
-//! What is descended: the trees of two bodies, two trees of one, or one tree against itself.
+//! Pair of trees to be descended: of two bodies, of one body, or one tree with itself.
 
 use crate::geometry::Points;
 use crate::ids::{BodyId, NodeId};
@@ -16,19 +16,19 @@ pub(crate) struct Side<'t, S, B = &'t mut BoxSet> {
     pub(crate) tree: &'t Tree,
     pub(crate) boxes: B,
     pub(crate) source: Source<'t, S>,
-    /// Where vertices are going, for kinds that look along motions.
+    /// Positions of vertices in motion, for kinds that look along motions.
     pub(crate) motion: Option<&'t Points<S>>,
-    /// For kinds that are shown runs of triangles.
+    /// Near elements, for kinds that are shown runs of triangles.
     pub(crate) elements: Option<NearElements<'t>>,
-    /// What was taken out of the mesh and is still in the tree, if anything is.
+    /// Triangles that were removed from the mesh and are still in the tree, if there are any.
     pub(crate) removed: Option<Removed<'t>>,
 }
 
-/// One tree of a body as tasks read it, many at a time.
+/// Read-only view of a tree of a body, which many tasks share.
 pub(crate) type View<'t, S> = Side<'t, S, &'t BoxSet>;
 
 impl<S: Coordinate> Side<'_, S> {
-    /// As tasks read it.
+    /// Read-only view, for tasks.
     pub(super) fn view(&self) -> View<'_, S> {
         View {
             body: self.body,
@@ -42,7 +42,7 @@ impl<S: Coordinate> Side<'_, S> {
         }
     }
 
-    /// As the update sees it.
+    /// Mutable boxes with their tree, for refitting.
     pub(crate) fn refitted(&mut self) -> Refitted<'_, S> {
         Refitted {
             tree: self.tree,
@@ -53,7 +53,7 @@ impl<S: Coordinate> Side<'_, S> {
 }
 
 impl<S: Coordinate, B: Deref<Target = BoxSet>> Side<'_, S, B> {
-    /// As a walk sees it.
+    /// Tree and boxes alone, for a walk.
     pub(super) fn boxed_tree(&self) -> BoxedTree<'_> {
         BoxedTree {
             tree: self.tree,
@@ -61,12 +61,12 @@ impl<S: Coordinate, B: Deref<Target = BoxSet>> Side<'_, S, B> {
         }
     }
 
-    /// Where vertices are at the end of a motion, for kinds that look along motions.
+    /// Positions at the end of a motion, for kinds that look along motions.
     pub(super) fn end(&self) -> Option<&Points<S>> {
         self.source.end().map(|end| end.positions)
     }
 
-    /// The numbers of edges as the caller has them, for kinds that look at edges; else none.
+    /// Caller's numbers of edges, for kinds that look at edges; else empty.
     fn caller_edges(&self) -> &[u32] {
         let elements = self.elements.as_ref();
         elements.map_or(&[], |elements| elements.edges.caller_edges())
@@ -81,15 +81,15 @@ impl<S: Coordinate, B: Deref<Target = BoxSet>> Side<'_, S, B> {
 pub(crate) enum TreePair<'t, S, B = &'t mut BoxSet> {
     /// One tree with itself, every pair of its triangles once.
     ///
-    /// A pair of one node with itself stands for the pairs within it; it expands into its children with themselves and into
-    /// the pairs of different children that overlap.
+    /// A pair of one node with itself stands for the pairs within it. It expands into its children
+    /// with themselves, and into the pairs of different children that overlap.
     One(Side<'t, S, B>),
     /// Two trees whose root boxes overlap: of two bodies, or of one.
     Two([Side<'t, S, B>; 2]),
 }
 
 impl<S: Coordinate> TreePair<'_, S> {
-    /// As tasks read it.
+    /// Read-only view, for tasks.
     pub(super) fn view(&self) -> TreePair<'_, S, &BoxSet> {
         match self {
             Self::One(side) => TreePair::One(side.view()),
@@ -97,7 +97,7 @@ impl<S: Coordinate> TreePair<'_, S> {
         }
     }
 
-    /// The first or the second, to refit.
+    /// Mutable boxes of the first (0) or second (1) tree, for refitting.
     pub(super) fn refitted(&mut self, which: usize) -> Refitted<'_, S> {
         match self {
             Self::One(side) => side.refitted(),
@@ -107,13 +107,14 @@ impl<S: Coordinate> TreePair<'_, S> {
 }
 
 impl<'t, S: Coordinate, B: Deref<Target = BoxSet>> TreePair<'t, S, B> {
-    /// Whether it is one tree with itself.
+    /// Whether this is one tree with itself.
     #[inline]
     pub(super) fn is_one_tree(&self) -> bool {
         matches!(self, Self::One(_))
     }
 
-    /// Whether it is one body, in one tree or two: then triangles that share a vertex of the mesh are no answer.
+    /// Whether both sides are of one body, in one tree or two. Triangles that share a vertex of the
+    /// mesh are then no hits.
     #[inline]
     pub(super) fn is_one_body(&self) -> bool {
         let [a, b] = self.sides();
@@ -128,7 +129,7 @@ impl<'t, S: Coordinate, B: Deref<Target = BoxSet>> TreePair<'t, S, B> {
         a.overlaps(&b)
     }
 
-    /// Both, or the one twice.
+    /// Both sides, or the only one twice.
     #[inline]
     pub(super) fn sides(&self) -> [&Side<'t, S, B>; 2] {
         match self {
@@ -137,7 +138,7 @@ impl<'t, S: Coordinate, B: Deref<Target = BoxSet>> TreePair<'t, S, B> {
         }
     }
 
-    /// How the caller numbers what is in them.
+    /// Caller's numbering of bodies, triangles and edges on both sides.
     pub(super) fn caller_ids(&self) -> CallerIds<'_> {
         let [a, b] = self.sides();
         CallerIds {

@@ -1,6 +1,6 @@
-//! The walk of a task down the trees, depth first, on a stack and lists of its own: from pairs of nodes to pairs of leaves.
+//! Walk of a task down two trees, depth first, from pairs of nodes to pairs of leaves.
 //!
-//! It knows no kind of query, only trees and boxes.
+//! It has its own stack and lists, and knows no kind of query, only trees and boxes.
 
 use super::context::TaskLimits;
 use crate::held::held;
@@ -10,41 +10,41 @@ use crate::tree::{BoxedTree, NodePair, Worklists, expand};
 use crate::tree::{Child, Neighbours};
 use crate::update::DirtySet;
 
-/// How a walk goes.
+/// Rules of a walk.
 #[derive(Clone, Copy)]
 pub(super) struct Rules<'q> {
     pub(super) instructions: Instructions,
     pub(super) interrupt: &'q Interrupt<'q>,
     pub(super) limits: TaskLimits,
-    /// Leaves of one tree that are left out.
+    /// Neighbouring leaves of one tree whose pairs are left out.
     pub(super) left_out: Option<&'q Neighbours>,
-    /// Whether it is one tree with itself.
+    /// Whether one tree is walked against itself.
     pub(super) is_one_tree: bool,
-    /// Whether pairs of nodes below which boxes are stale are put aside, so that it goes on without.
+    /// Whether pairs of nodes that need stale boxes are deferred; otherwise the walk stops at them.
     pub(super) defers: bool,
-    /// Whether others wait for some of its pairs of nodes.
+    /// Whether another task waits for pairs of nodes.
     pub(super) is_wanted: &'q dyn Fn() -> bool,
-    /// Whether it notes the leaves it reaches, because boxes of their triangles are still to be made.
+    /// Whether the leaves that are reached are noted, since their triangles' boxes are still stale.
     pub(super) notes_leaves: bool,
 }
 
-/// Where a walk is, and what it has found; its buffers are kept from query to query.
+/// State of a walk, and the pairs of leaves it has found; its buffers are kept from query to query.
 #[derive(Debug, Default)]
 pub(super) struct Walk {
-    /// Pairs of nodes taken from the stack, to be expanded when what is below them is valid.
+    /// Pairs of nodes taken from the stack, to be expanded as soon as the boxes below are valid.
     batch: Vec<NodePair>,
-    /// Wide nodes below the batch that are stale, of either tree.
+    /// Stale wide nodes below the batch, of either tree.
     pub(super) stale: [DirtySet; 2],
-    /// The stack, and pairs of leaves that are to be tested.
+    /// Stack of pairs of nodes, and list of pairs of leaves.
     pub(super) found: Worklists,
-    /// The leaves in the pairs of leaves, of either tree.
+    /// Leaves in the pairs of leaves, of either tree.
     pub(super) reached: [DirtySet; 2],
-    /// Pairs of nodes that were put aside.
+    /// Pairs of nodes that need stale boxes and were deferred.
     pub(super) deferred: Vec<NodePair>,
 }
 
 impl Walk {
-    /// Forgets where it was.
+    /// Clears everything; buffers are kept.
     pub(super) fn clear(&mut self) {
         self.batch.clear();
         self.stale.iter_mut().for_each(DirtySet::clear);
@@ -53,7 +53,8 @@ impl Walk {
         self.deferred.clear();
     }
 
-    /// Takes away the first pairs of its stack, which are the uppermost, and shows them.
+    /// Removes the first `count` pairs of the stack, which are the uppermost, and hands them to
+    /// `give`.
     pub(super) fn give_first(&mut self, count: usize, give: &mut dyn FnMut(&[NodePair])) {
         let (nodes, rest) = (&mut self.found.nodes, &mut self.batch);
         nodes.take_last(nodes.len() - count, rest);
@@ -68,7 +69,7 @@ impl Walk {
         self.batch.is_empty() && self.found.nodes.is_empty()
     }
 
-    /// Goes on until it asks for boxes that are stale, has found enough, or no pair of nodes is left.
+    /// Goes on until it needs stale boxes, has found enough, or has no pair of nodes left.
     pub(super) fn go(&mut self, trees: [BoxedTree<'_>; 2], rules: &Rules) {
         let (instructions, limits) = (rules.instructions, rules.limits);
         let (is_one_tree, left_out) = (rules.is_one_tree, rules.left_out);
@@ -99,8 +100,8 @@ impl Walk {
         }
     }
 
-    /// Notes the wide nodes below the batch that are stale. Pairs that need them are put aside if it
-    /// defers them; else, whether there are any.
+    /// Notes the stale wide nodes below the batch. If `defers`, pairs that need them are deferred
+    /// and the answer is false. Otherwise returns whether there are any.
     fn asks_for_stale(&mut self, trees: [BoxedTree<'_>; 2], defers: bool) -> bool {
         let Self {
             batch,

@@ -17,28 +17,28 @@ pub enum ContactKind {
     /// move of their corners, however small, could part them.
     #[default]
     Touching,
-    /// They lie in one plane, and have an area in common. A small move could part them too.
+    /// Triangles in one plane that have an area in common. A small move could part them too.
     Overlapping,
-    /// They go through each other: after every small enough move of their corners they still
-    /// intersect. So there is no plane with one triangle on either closed side of it. A triangle
-    /// without area, a segment, crosses another if it goes through its inside.
+    /// Triangles that go through each other: after every small enough move of their corners they
+    /// still intersect. So there is no plane with one triangle on either closed side of it. A
+    /// triangle without area, a segment, crosses another if it goes through its inside.
     Crossing,
 }
 
-/// How two triangles that are known to intersect do so.
+/// Kind of contact of two triangles that are known to intersect.
 ///
-/// They cross if they intersect after every small enough move: if the origin is inside the set of
+/// They cross if they intersect after every small enough move. The origin is then inside the set of
 /// differences of their points, not on its boundary. That is, no plane has the one on its one
 /// closed side and the other on the other. These differences fill space only if the triangles span
 /// it. Then their inside is the differences of what is inside either, seen in its own plane or
 /// line. So
 ///
-/// - two triangles with area cross if each has corners on both open sides of the other's plane, and
-///   their open segments on the line of both planes overlap. Let p1 and p2 be the corners alone on
+/// - two triangles with area cross under two conditions: each has corners on both open sides of the
+///   other's plane, and their open segments on the line of both planes overlap. Let p1 and p2 be the corners alone on
 ///   their sides, and the others in the order of `pliant`'s vector lanes. Then these are the two
 ///   signs of Guigue and Devillers (2003), both negative: a zero is two ends in one point;
-/// - a segment crosses a triangle with area if its ends are on both open sides of its plane, and
-///   its line has the three edges on one side;
+/// - a segment crosses a triangle with area if its ends are on both open sides of the plane. Its
+///   line must also have the three edges on one side;
 /// - all others do not: two segments span no space, a point has nothing inside.
 ///
 /// Triangles of one plane overlap if both have area and no edge of either has them on its two

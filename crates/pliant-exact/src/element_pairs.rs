@@ -1,9 +1,10 @@
 //! The fifteen pairs of elements of two triangles: each corner and the other triangle, each edge
 //! and each edge.
 //!
-//! Two triangles that do not intersect are as far apart as the nearest of these, whatever triangles
-//! they are. Where two convex sets are closest, neither point is inside a face unless the other is
-//! a corner, or may be moved until it is one. The latter is so between parallel faces or edges.
+//! The distance of two triangles that do not intersect is the least distance of these pairs, for
+//! any triangles. Let two convex sets be closest. Then neither point is inside a face unless the
+//! other is a corner, or may be moved until it is one. The latter is so between parallel faces or
+//! edges.
 
 /// The number of pairs.
 pub const ELEMENT_PAIRS: usize = 15;
@@ -33,8 +34,8 @@ fn elements(which: usize) -> Elements {
 
 const NEXT: [usize; 3] = [1, 2, 0];
 
-/// The four corners of a pair: a corner and the other triangle, or the ends of an edge of the first
-/// and of one of the second. `which` is below [`ELEMENT_PAIRS`].
+/// Four corners of a pair: a corner and the other triangle, or the ends of two edges, one of each
+/// triangle. `which` is below [`ELEMENT_PAIRS`].
 #[inline]
 pub fn four_corners<T: Copy>(which: usize, a: &[T; 3], b: &[T; 3]) -> [T; 4] {
     match elements(which) {

@@ -262,9 +262,9 @@ mod tests {
 
     #[test]
     fn products_that_underflow_in_part_are_not_trusted() {
-        // Lattice points scaled to where products of two differences keep a few bits, or none, and
-        // a factor of ordinary size lifts what is left above the relative bound. Above 2^-305 the
-        // answer is still that of the lattice.
+        // Lattice points scaled to where products of two differences keep a few bits, or none. A
+        // factor of ordinary size then lifts what is left above the relative bound. Above 2^-305
+        // the answer is still the answer on the lattice.
         let mut state = 5_u64;
         let mut next = |range: i64| {
             state = state

@@ -22,8 +22,8 @@ use super::point::{PLANES, Point2, Sign, Triangle, projected};
 ///    all six corners lie in one plane. The answer is the **and** of closed two-dimensional tests
 ///    in the three axis projections: what meets, meets in all of them. What does not is kept apart
 ///    by one of them at least. No axis has to be chosen.
-/// 3. Else the answer is **yes** if and only if of some edge of either triangle two things hold.
-///    Its plane signs are not both zero and do not agree; and its three edge signs with the other
+/// 3. Else the answer is **yes** if and only if two things hold for some edge of either triangle.
+///    Its plane signs are not both zero and do not agree. Its three edge signs with the other
 ///    triangle are all >= 0 or all <= 0. It crosses or touches the plane, and its line passes
 ///    through the triangle. Edges in the plane need not be looked at: other edges end where they
 ///    end.

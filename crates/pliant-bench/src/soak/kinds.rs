@@ -7,7 +7,7 @@ use std::hash::{DefaultHasher, Hasher};
 /// A method of a world that asks for hits, by its name.
 pub(super) struct AnyKind<S: Scalar> {
     pub(super) name: &'static str,
-    /// What is found of a selection, within a length if the kind has one.
+    /// Digest of the hits of a selection, within a length if the kind has one.
     pub(super) ask: fn(&mut World<S>, Selection, f64, Much) -> Result<Digest, Error>,
 }
 
@@ -22,7 +22,7 @@ pub(super) enum Much {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Digest(usize, u64);
 
-/// What is written is hashed.
+/// Writer that hashes everything written to it.
 struct Hash(DefaultHasher);
 
 impl Write for Hash {

@@ -181,11 +181,11 @@ impl Primitives {
 ///                                       (n.t)^2 / n.n
 /// ```
 ///
-/// Where n is zero, the face is an edge or a point, and two parallel edges are as near as an end of
-/// one is to the other.
+/// Where n is zero, the face is an edge or a point. Two parallel edges are as near as an end of one
+/// is to the other.
 ///
 /// With b bits a coordinate, a difference has b + 1. A normal has 2 (b + 1) + 1 in each of three,
-/// and its square 4 (b + 1) + 4; the square of a volume has 6 (b + 1) + 6. Two quotients of such
+/// and its square 4 (b + 1) + 4. The square of a volume has 6 (b + 1) + 6. Two quotients of such
 /// are compared by products of 10 (b + 1) + 10 bits. A quotient and the square of a distance are by
 /// as few, for that is only done where they are nearly equal. So up to 60 bits a coordinate nothing
 /// is allocated.

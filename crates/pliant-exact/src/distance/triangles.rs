@@ -1,10 +1,10 @@
-//! How far apart two triangles are: nothing if they intersect, else as far as their nearest
+//! Distance of two triangles: zero if they intersect, otherwise the least distance of their
 //! elements.
 //!
-//! Whether they intersect is decided as everywhere. Then they have a point in common: where
-//! elements touch, or where an edge goes through the inside of the other triangle. It is computed
-//! in plain arithmetic first. How far apart the points are that were found says how good they are;
-//! if that is too far, as for slivers, integers find better ones.
+//! Whether they intersect is decided exactly, as everywhere. If so, they have a point in common:
+//! where elements touch, or where an edge goes through the inside of the other triangle. Such a
+//! point is first computed in floating point, once on either triangle. The distance of the two
+//! points tells how good they are. If it is too large, as for slivers, integers find better ones.
 
 use super::super::element_pairs::in_triangle;
 use super::super::float::{U, power};
@@ -197,8 +197,9 @@ pub fn point_in_common(a: &Triangle, b: &Triangle) -> [[f64; 3]; 2] {
     [[1.0, 0.0, 0.0]; 2]
 }
 
-/// Where an edge p q crosses a triangle whose plane it is not in: how far along the edge, and along
-/// both sides of the first corner. Each is within 2^-48 of the exact one.
+/// Crossing of an edge p q with a triangle whose plane it is not in, as three fractions. The first
+/// is the part of the edge, the others are along both sides of the first corner. Each is within
+/// 2^-48 of the exact one.
 ///
 /// Let n be normal to the triangle, h = n.(c0 - p) and w = n.(q - p). The point is at the part t =
 /// h / w of the way. Times w it is x = w (p - c0) + h (q - p) from the first corner, and u = (x x

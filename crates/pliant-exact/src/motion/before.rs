@@ -13,8 +13,8 @@ impl Contact {
     /// The time is at most `until`, which is a multiple of 2^-44. If not, they may meet at any
     /// time, or never. One of two proofs is enough; both compare signs at the time, exactly:
     ///
-    /// - on an axis all corners of the polygon are on one side at the start and, or at most at
-    ///   zero, at the time: they are affine;
+    /// - on an axis, all corners of the polygon are on one side at the start. At the time they are
+    ///   on the same side, or at most at zero: they are affine;
     /// - the determinant has one root at most up to the time, and no other sign at the time than at
     ///   the start.
     ///

@@ -16,9 +16,9 @@ use std::array::from_fn;
 /// The first contact of a pair, as far as it is certain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Certain {
-    /// They do not meet in [0, 1].
+    /// No contact in [0, 1].
     Never,
-    /// They first meet in this cell of the grid.
+    /// First contact in this cell of the grid.
     Within([f64; 2]),
     /// Nothing is certain: integers are to decide.
     Nothing,

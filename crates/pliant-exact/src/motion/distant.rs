@@ -15,10 +15,10 @@ use super::certain::Polygon;
 use super::moving::Moving;
 use std::cmp::Ordering;
 
-// With u = 2^-53 and M as in `certain`, a projection at a time is off by less than 4 u n.M from
-// that of its corner. Products and sums add 3 u n.M. The allowance is 8 u, and more than what can
-// be lost below the normal range. A length is off by 3 u of itself. A gain is rounded to 2^-53 of
-// the new time; gains below 2^-32 of it do not count.
+// With u = 2^-53 and M as in `certain`, a corner's projection at a time is off by less than 4 u
+// n.M. Products and sums add 3 u n.M. The allowance is 8 u, and more than what can be lost below
+// the normal range. A length is off by 3 u of itself. A gain is rounded to 2^-53 of the new time;
+// gains below 2^-32 of it do not count.
 const OF_PROJECTION: f64 = 8.0 * U;
 const LOST: f64 = power(-850);
 /// The number of directions that are looked at, at most.
@@ -80,8 +80,8 @@ pub fn distant_until(moving: &Moving, distance: f64, of_interest: f64) -> f64 {
 /// than it need no exact decision.
 ///
 /// The distance is in the unit of the coordinates; the answer false says nothing. Cost:
-/// nanoseconds. With u = 2^-53 a component of a difference is off by u of itself, a square of a
-/// length by 6 u of itself: 16 u are allowed. What is lost below the normal range is at most
+/// nanoseconds. With u = 2^-53 a component of a difference is off by u of itself. The square of a
+/// length is off by 6 u of itself; 16 u are allowed. What is lost below the normal range is at most
 /// 2^-1018 of the distance. That is less than the rest of the allowance if the square of the
 /// distance is above 2^-900.
 pub fn starts_surely_within(moving: &Moving, distance: f64) -> bool {

@@ -87,7 +87,7 @@ impl Dyadic {
         (!self.over.is_zero()).then(|| power - self.under.0 as i32)
     }
 
-    /// This many powers of two less, and not negative.
+    /// Absolute value divided by 2^`twos`.
     pub(super) fn magnitude_over(&self, twos: usize) -> Self {
         Self {
             over: self.over.clone().magnitude(),

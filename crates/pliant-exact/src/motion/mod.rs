@@ -51,10 +51,10 @@ pub struct Later(Root);
 /// A polynomial for each axis.
 type Vector = [Polynomial; 3];
 
-/// The difference of two elements: a polygon of three or four corners that move.
+/// Difference of two elements: a polygon of three or four moving corners.
 ///
-/// That is a triangle (its corners less the vertex), or a parallelogram (an end of the one edge
-/// less an end of the other, in order around).
+/// It is a triangle or a parallelogram. A triangle has the corners of one element less the vertex.
+/// A parallelogram has an end of the one edge less an end of the other, in order around.
 struct Polygon {
     corners: [Vector; 4],
     /// The polygon in double precision, which is certain of most signs.
@@ -191,8 +191,8 @@ impl Polygon {
     /// Let Q be a segment or a point whose line or direction does not go through the origin. Then
     /// the l_i add up to zero, for they are what Q's area is seen from there. Either two have
     /// opposite signs, or all are zero, and Q is a point. Let all q_i be on one line with the
-    /// origin. It is in their hull if and only if they are not all beyond it on one side; an axis
-    /// shows that which is not normal to the line.
+    /// origin. It is in their hull if and only if they are not all beyond it on one side. Any axis
+    /// that is not normal to the line shows that.
     fn holds_origin(&self, about: [f64; 2], sign: &dyn Fn(&Polynomial) -> i8) -> bool {
         let rounded = self.rounded.part(about);
         (0..3).all(|axis| {

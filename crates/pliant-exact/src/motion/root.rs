@@ -113,7 +113,7 @@ fn visit_between(
 struct Cuts {
     /// Near it are those that are near each other.
     of: Option<Fraction>,
-    /// That place, nearly, and by how much it may be off.
+    /// Approximate place of the root. `error` bounds its distance from the exact one.
     about: Dyadic,
     error: Dyadic,
     turn: usize,

@@ -11,15 +11,15 @@ use super::super::ring::Ring;
 use super::fraction::{Dyadic, Fraction};
 use super::polynomial::Polynomial;
 
-/// The sequence of a polynomial.
+/// Sturm sequence of a polynomial.
 ///
 /// Let s be the sign of a in a t^3 + b t^2 + c t + d. The third is s (2 (b^2 - 3 a c) t + b c - 9 a
 /// d): the remainder times -9 |a|. What comes after one of degree 1 is a number, of which the sign
-/// is enough. It is the opposite of the sign that the one before has at the root of that one, and
-/// zero if the polynomial has multiple roots.
+/// is enough. Its sign is opposite to the quadratic's at the root of the linear one, and zero if the
+/// polynomial has multiple roots.
 ///
-/// Then all its roots are fractions. A root that comes twice is that of the one of degree 1, and
-/// all add up to -b / a; what comes three times is -b / (3 a). A polynomial of degree 1 is itself
+/// Then all its roots are fractions. A double root is the root of the one of degree 1, and all roots
+/// add up to -b / a. A triple root is -b / (3 a). A polynomial of degree 1 is itself
 /// the one of degree 1: its root is a fraction too.
 #[derive(Clone, Debug)]
 pub(super) struct Sturm {

@@ -1,7 +1,7 @@
 //! Pairs of bodies that may meet: the broad phase, filters and exact boxes.
 //!
-//! Pairs come in batches, each found when the previous one has been processed. So many bodies in
-//! one place cost time but no memory. A query that ends early searches for no pairs that it does
+//! Pairs come in batches, each found when the previous one has been processed. Many bodies in one
+//! place thus cost time but no memory. A query that ends early searches for no pairs that it does
 //! not need. If one batch holds all pairs, it is kept until something moves.
 
 use crate::bodies::Bodies;

@@ -115,7 +115,9 @@ impl<S: Coordinate> AskedImpacts<S> {
         }
     }
 
-    /// A time up to which everything may go: see [`World::collision_free_step`](crate::World::collision_free_step).
+    /// Time up to which everything may move: see [`World::collision_free_step`].
+    ///
+    /// [`World::collision_free_step`]: crate::World::collision_free_step
     pub(crate) fn free_step(
         &mut self,
         common: &mut Common<S>,

@@ -52,7 +52,7 @@ pub(crate) struct Together {
 #[derive(Clone, Copy, Debug)]
 struct Pair {
     trees: [u32; 2],
-    /// The pair of bodies that they are of.
+    /// Number of their pair of bodies.
     of: u32,
 }
 

@@ -1,8 +1,9 @@
-//! Work that busy threads give to idle ones, so that none waits while another has much left.
+//! Work sharing: busy threads give work to idle ones, so that none waits while another has much
+//! left.
 //!
-//! Idea: a thread looks now and then whether others are idle, and if so gives them half of what it has
-//! left. Invariant: nothing is lost, and all end only when nobody has anything. Use it where the
-//! order of work changes no answer.
+//! Idea: a thread checks now and then whether others are idle, and if so gives them half of its
+//! remaining work. Invariant: no work is lost, and all end only when no worker has any. Use it only
+//! where the order of work changes no answer.
 
 use super::Executor;
 use super::lock::locked;
@@ -11,19 +12,19 @@ use super::record::Recorder;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// What was given and is not taken yet, for a number of workers.
+/// Pool of work that was given and not yet taken, shared by a fixed number of workers.
 pub(crate) struct Exchange<'q, T> {
     given: Mutex<Vec<T>>,
-    /// Workers that have something to do.
+    /// Number of workers that have work.
     busy: AtomicUsize,
-    /// Workers that wait for something.
+    /// Number of workers that wait for work.
     idle: AtomicUsize,
-    /// Takes the times of pieces of work; then one thread does all, and none waits.
+    /// Recorder of the times of pieces of work; one thread then does all, and none waits.
     recorder: Option<&'q Recorder>,
 }
 
 impl<'q, T> Exchange<'q, T> {
-    /// For so many workers, each of which has work of its own at first.
+    /// Exchange for `workers` workers, each of which has work of its own at first.
     pub(crate) fn new(executor: Executor<'q>, workers: usize) -> Self {
         Self {
             recorder: executor.threads.recorder.as_ref(),
@@ -33,13 +34,13 @@ impl<'q, T> Exchange<'q, T> {
         }
     }
 
-    /// Whether others wait for work.
+    /// Whether another worker waits for work.
     #[inline]
     pub(crate) fn is_wanted(&self) -> bool {
         self.idle.load(Ordering::Relaxed) > 0
     }
 
-    /// A piece of work is done, and the rest could be given to others.
+    /// Marks the end of a piece of work, after which the rest could be given to others.
     #[inline]
     pub(crate) fn mark(&self) {
         if let Some(recorder) = self.recorder {
@@ -52,12 +53,13 @@ impl<'q, T> Exchange<'q, T> {
         locked(&self.given).extend(work);
     }
 
-    /// Takes some of what was given, when a worker has nothing left; waits for it while others are
-    /// busy, but not long. Returns whether there is any: if not, the worker is to end.
+    /// Takes some of the given work for a worker that has none left. Waits for it while others are
+    /// busy, but not long. Returns whether there is any; if not, the worker has to end.
     pub(crate) fn take(&self, into: &mut Vec<T>) -> bool {
         let mut backoff = Backoff::default();
         self.idle.fetch_add(1, Ordering::Relaxed);
-        // Whoever gives is busy until it has given, so nothing comes after the last is not.
+        // A giver is busy until it has given. So no work comes after the last has stopped being
+        // busy.
         self.busy.fetch_sub(1, Ordering::AcqRel);
         let is_any = loop {
             let is_last = self.busy.load(Ordering::Acquire) == 0;

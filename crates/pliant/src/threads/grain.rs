@@ -1,19 +1,19 @@
-//! Sizes of jobs, and how many threads the work of a part pays.
+//! Grain sizes of jobs, and the number of threads that the work of a part pays for.
 //!
-//! Idea: `W` nanoseconds on `p` threads take about `W / p + p * HELPER`, the least of which is at
-//! `p = sqrt(W / HELPER)`. Invariant: work is cut by its size alone, never by the number of threads.
-//! What a job takes is a rough figure: it chooses how many threads wake, and changes no answer.
+//! Idea: `W` nanoseconds on `p` threads take about `W / p + p * HELPER`, which is least at `p =
+//! sqrt(W / HELPER)`. Invariant: work is cut by its size alone, never by the number of threads.
+//! Times of jobs are rough figures: they choose how many threads wake, and change no answer.
 
-/// A job of some kind of work.
+/// Size of a job of some kind of work.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grain {
     /// Items in a job.
     pub(crate) items: usize,
-    /// About how long a job takes, in nanoseconds.
+    /// Rough time of a job, in nanoseconds.
     pub(crate) nanoseconds: u64,
 }
 
-/// What it takes to give one thread more a share and to wait for it, in nanoseconds.
+/// Cost of one more thread, in nanoseconds: handing it a share, and waiting for it.
 const HELPER: u64 = 2_000;
 
 impl Grain {
@@ -21,7 +21,7 @@ impl Grain {
     pub(crate) const WIDE_NODES: Self = Self::of(16, 1_500);
     /// Boxes of wide nodes of leaves with all their triangles.
     pub(crate) const WHOLE: Self = Self::of(4, 3_000);
-    /// Boxes of the triangles in leaves, which were reached.
+    /// Boxes of the triangles in leaves that were reached.
     pub(crate) const LEAVES: Self = Self::of(64, 4_000);
     /// Points that are checked, copied or brought into tree order; whole rows of 32.
     pub(crate) const POINTS: Self = Self::of(2_048, 3_000);
@@ -31,15 +31,15 @@ impl Grain {
     pub(crate) const RUNS: Self = Self::of(256, 8_000);
     /// Close pairs that are measured.
     pub(crate) const MEASURED: Self = Self::of(1_024, 30_000);
-    /// Keys of hits, in either of the two passes that put them in order.
+    /// Keys of hits, in either of the two passes of their sort.
     pub(crate) const KEYS: Self = Self::of(1_024, 6_000);
 
-    /// Triangles of bodies that a query makes ready, or that meet, if nothing more is known.
+    /// Triangles of bodies that a query prepares, or that meet, if nothing more is known.
     pub(crate) const TRIANGLES: Self = Self::of(1_024, 10_000);
     /// Pairs of leaves that are tested.
     pub(crate) const LEAF_PAIRS: Self = Self::of(64, 20_000);
 
-    /// About how long so many items take together, in nanoseconds.
+    /// Rough time of `items` items together, in nanoseconds.
     pub(crate) const fn time(self, items: usize) -> u64 {
         items as u64 * self.nanoseconds / self.items as u64
     }
@@ -49,7 +49,7 @@ impl Grain {
     }
 }
 
-/// How many threads work of so many nanoseconds pays; at least one, the calling thread.
+/// Number of threads that work of `nanoseconds` pays for; at least one, the calling thread.
 pub(crate) fn threads_for(nanoseconds: u64) -> usize {
     usize::try_from((nanoseconds / HELPER).isqrt()).map_or(usize::MAX, |count| count.max(1))
 }
@@ -58,7 +58,7 @@ pub(crate) fn threads_for(nanoseconds: u64) -> usize {
 mod tests {
     use super::*;
 
-    /// By the model above, for work of 1 ns to 1 s, and up to 256 threads that there are.
+    /// By the model above, for work of 1 ns to 1 s, and up to 256 threads.
     #[test]
     fn more_threads_never_take_longer() {
         let takes = |work: u64, threads: u64| work / threads + (threads - 1) * HELPER;

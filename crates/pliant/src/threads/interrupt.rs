@@ -1,15 +1,16 @@
-//! How a query is interrupted from outside.
+//! Interrupt of a query from outside.
 //!
-//! Whoever asks may bring a question, "stop now?", which is looked at between jobs and between runs of a long loop: each of these
-//! takes well below ten milliseconds, but for the exceptions that `Query::interrupt_if` names. Once it was answered with yes, every
-//! thread ends what it is at and begins nothing new. What was left half done is then forgotten by the world: see `collide/asked.rs`.
+//! A caller may bring a question, "stop now?". It is asked between jobs, and between runs of a long
+//! loop. Each of these takes well below ten milliseconds, with the exceptions that
+//! `Query::interrupt_if` names. After the first yes, every thread ends its present work and begins
+//! nothing new. The world then drops everything that is half done: see `collide/asked.rs`.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The caller's question.
+/// Question of the caller: whether to stop now.
 pub(crate) type Question<'q> = &'q (dyn Fn() -> bool + Sync);
 
-/// Whether a query is to end early.
+/// Flag that ends a query early, set by the first yes to the question.
 #[derive(Default)]
 pub(crate) struct Interrupt<'q> {
     question: Option<Question<'q>>,
@@ -24,7 +25,7 @@ impl<'q> Interrupt<'q> {
         }
     }
 
-    /// Looks, and remembers a yes.
+    /// Asks the question if it was not yet answered with yes. Returns whether the query is to end.
     #[inline]
     pub(crate) fn is_set(&self) -> bool {
         match self.question {
@@ -36,7 +37,7 @@ impl<'q> Interrupt<'q> {
     #[cold]
     #[inline(never)]
     fn ask(&self, question: Question) -> bool {
-        // The others are told by the flag, so that none of them asks again.
+        // Other threads read the flag, so that none of them asks again.
         if !self.is_set.load(Ordering::Relaxed) && question() {
             self.is_set.store(true, Ordering::Relaxed);
         }

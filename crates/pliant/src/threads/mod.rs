@@ -1,10 +1,10 @@
-//! One thread or many: the only folder that names a thread pool.
+//! Threads of a world: jobs for one thread or many. No other folder names a thread pool.
 //!
-//! Work is cut into jobs by its size, never by the number of threads; every job writes what is its
-//! own, and what jobs find is put together in their order or sorted. So answers, their order and
-//! counters are the same for any number of threads. A part takes as many threads as its work pays
-//! (`grain`), and the others sleep (`pool`). The child of a fork has none of these threads: see
-//! [`Threads::here`].
+//! Idea: work is cut into jobs by its size, never by the number of threads. Invariant: every job
+//! writes only its own data, and results are joined in the order of jobs, or sorted. So answers,
+//! their order and counters are the same for any number of threads. A part uses as many threads as
+//! its work pays for (`grain`), while the others sleep (`pool`). The child of a fork has none of
+//! these threads: see [`Threads::here`].
 
 mod budget;
 mod exchange;
@@ -28,15 +28,15 @@ pub use record::{Clock, RecordedPart};
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
-/// More threads than anyone has.
+/// Most threads of a world: more than any use pays for.
 const MOST: usize = 256;
 
-/// The threads of a world.
+/// Threads of a world.
 #[derive(Debug)]
 pub(crate) struct Threads {
-    /// The others beside the one that calls; none if that is all.
+    /// Helpers beside the calling thread, if there are any.
     helpers: Option<Helpers>,
-    /// Takes the times of jobs, all of which the calling thread does then.
+    /// Recorder of the times of jobs; the calling thread then does all of them.
     recorder: Option<Recorder>,
 }
 
@@ -46,8 +46,8 @@ impl Threads {
         Self::of(None)
     }
 
-    /// `count` threads, the calling one included, but not more than [`MOST`]. Where the system gives none, the calling thread does
-    /// all work.
+    /// Makes a private pool of `count` threads in all, the calling one included, but at most
+    /// [`MOST`]. If the system gives none, the calling thread does all work.
     pub(crate) fn private(count: NonZeroUsize) -> Self {
         let count = count.get().min(MOST) - 1;
         let pool = (count > 0).then(|| {
@@ -61,7 +61,7 @@ impl Threads {
         Self::of(helpers)
     }
 
-    /// At most `count` threads, the calling one included; the others are of a pool of the caller's.
+    /// Uses a pool of the caller's: at most `count` threads in all, the calling one included.
     pub(crate) fn lent(count: NonZeroUsize, pool: Arc<rayon::ThreadPool>) -> Self {
         let count = (count.get().min(MOST) - 1).min(pool.current_num_threads());
         Self::of((count > 0).then(|| Helpers::of(pool, count, None)))
@@ -74,7 +74,7 @@ impl Threads {
         }
     }
 
-    /// The calling thread alone, which does work cut as for `count` threads and takes its times.
+    /// The calling thread alone, with work cut as for `count` threads and a record of its times.
     pub(crate) fn recorded(count: NonZeroUsize, clock: Clock) -> Self {
         Self {
             helpers: None,
@@ -82,12 +82,12 @@ impl Threads {
         }
     }
 
-    /// What was recorded since the last call; nothing if nothing is recorded.
+    /// Returns the record since the last call; empty if nothing is recorded.
     pub(crate) fn take_record(&self) -> Vec<RecordedPart> {
         self.recorder.as_ref().map_or_else(Vec::new, Recorder::take)
     }
 
-    /// Threads for another world: of the same pool, if that was lent, or else private ones of its own.
+    /// Threads for another world: of the same pool if that was lent, otherwise private.
     pub(crate) fn another(&self, count: NonZeroUsize) -> Self {
         let lent = self.helpers.as_ref().filter(|it| it.awake.is_none());
         match lent {
@@ -96,8 +96,10 @@ impl Threads {
         }
     }
 
-    /// The threads that this process has. In the child of a fork, private ones are made anew; of a pool that was lent, nobody can say
-    /// what became of it, so the calling thread does all work.
+    /// Threads of this process, which may be the child of a fork.
+    ///
+    /// In a child, private threads are made anew. The state of a pool that was lent is unknown
+    /// there, so the calling thread does all work.
     pub(crate) fn here(&mut self) -> &Self {
         if let Some(helpers) = self
             .helpers
@@ -114,7 +116,7 @@ impl Threads {
     }
 }
 
-/// The threads that work on a query, and what may interrupt them.
+/// Threads that work on a query, and its interrupt.
 #[derive(Clone, Copy)]
 pub(crate) struct Executor<'q> {
     pub(crate) threads: &'q Threads,
@@ -122,12 +124,12 @@ pub(crate) struct Executor<'q> {
 }
 
 impl Executor<'_> {
-    /// Whether there are others than the calling thread.
+    /// Whether there is any thread besides the calling one.
     pub(crate) fn are_many(&self) -> bool {
         self.count() > 1
     }
 
-    /// How many threads there are, the calling one included.
+    /// Number of threads, the calling one included.
     pub(crate) fn count(&self) -> usize {
         let Threads { helpers, recorder } = self.threads;
         match recorder {
@@ -136,7 +138,7 @@ impl Executor<'_> {
         }
     }
 
-    /// The calling thread alone.
+    /// The calling thread alone, with the same interrupt.
     pub(crate) fn alone(self) -> Self {
         static ALONE: Threads = Threads::one();
         Self {
@@ -145,24 +147,24 @@ impl Executor<'_> {
         }
     }
 
-    /// How many threads work of so many nanoseconds pays, of those that there are.
+    /// Number of threads that work of `nanoseconds` pays for, at most as many as there are.
     pub(crate) fn threads_for(&self, nanoseconds: u64) -> usize {
         threads_for(nanoseconds).min(self.count())
     }
 
-    /// Whether work of so many nanoseconds pays more than one thread, and there are several.
+    /// Whether work of `nanoseconds` pays for several threads, and there are several.
     pub(crate) fn pays(&self, nanoseconds: u64) -> bool {
         self.threads_for(nanoseconds) > 1
     }
 
-    /// Whether to end early. After a yes nothing that was computed can be relied on.
+    /// Whether to end early. After a yes, no result can be relied on.
     #[inline]
     pub(crate) fn is_interrupted(&self) -> bool {
         self.interrupt.is_set()
     }
 
-    /// Does all jobs, or, interrupted, some of them; returns when nothing is under way. All together
-    /// take about so many nanoseconds.
+    /// Runs all jobs, or some of them if interrupted, and returns when none is running. Together
+    /// they take about `nanoseconds`.
     pub(crate) fn run<J: Send>(
         &self,
         jobs: &mut [J],
@@ -172,8 +174,8 @@ impl Executor<'_> {
         self.run_any(jobs, nanoseconds, &work);
     }
 
-    /// Does work as one job, or, where it pays several threads, cut into several. `done` is then shown
-    /// each as it was left.
+    /// Runs work as one job, or cut into several where it pays for several threads. `done` then
+    /// sees each job in its final state.
     pub(crate) fn run_cut<J: Send>(
         &self,
         whole: J,
@@ -194,8 +196,8 @@ impl Executor<'_> {
         jobs.iter().for_each(done);
     }
 
-    /// Does jobs of a grain, and shows `done` each as it was left. They are listed only if there are
-    /// several threads, for on one a step allocates nothing.
+    /// Runs jobs of a grain; `done` sees each in its final state. With one thread the jobs are not
+    /// collected in a list, since a step then allocates nothing.
     pub(crate) fn run_each<J: Send>(
         &self,
         jobs: impl Iterator<Item = J>,
@@ -216,8 +218,8 @@ impl Executor<'_> {
         }
     }
 
-    /// The same as [`run`](Self::run) for any work: it is compiled for each kind of job, but not for
-    /// everything that is done with one.
+    /// Runs jobs as [`run`](Self::run), but with a dynamic action. It is compiled once for each
+    /// type of job, not for each action.
     fn run_any<J: Send>(
         &self,
         jobs: &mut [J],
@@ -259,7 +261,7 @@ mod tests {
         Threads::private(NonZeroUsize::new(count).unwrap())
     }
 
-    /// All jobs, by threads that nothing interrupts.
+    /// Runs all jobs, with no interrupt.
     fn run<J: Send>(threads: &Threads, jobs: &mut [J], work: impl Fn(usize, &mut J) + Sync) {
         let interrupt = &Interrupt::default();
         Executor { threads, interrupt }.run(jobs, u64::MAX, work);
@@ -309,7 +311,8 @@ mod tests {
         }
     }
 
-    /// A fork itself needs code that is not safe: the tests of the Python package have one.
+    /// Simulates a fork by a changed process number, as a real one needs unsafe code. The tests of
+    /// the Python package fork.
     #[test]
     fn the_child_of_a_fork_has_threads_of_its_own() {
         let pool = Arc::new(

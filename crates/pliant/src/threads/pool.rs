@@ -1,38 +1,39 @@
-//! Threads beside the calling one: how they share jobs, wake, wait and fall asleep.
+//! Helper threads: how they share jobs with the calling thread, wake, wait and fall asleep.
 //!
-//! A step is some dozens of parts, each shorter than it takes to wake a thread. So threads of a
-//! private pool that were woken look for more for a while before they sleep; as many as the part
-//! pays, and no others. Each begins with jobs side by side, and helps others from the back when
-//! these are done: what a thread wrote in one part it is likely to read in the next. Threads of a
-//! pool that an application has lent are not kept awake.
+//! A step has some dozens of parts, each shorter than waking a thread takes. So threads of a
+//! private pool stay awake for a while after a part and look for more work. Only as many are woken
+//! as the part pays for. Each begins with adjacent jobs, and then steals others' jobs from the
+//! back. A thread thus mostly reads what it wrote in the part before. Threads of a pool that an
+//! application has lent are not kept awake.
 
 use super::lock::locked;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-/// How long a thread looks for more to do before it sleeps: longer than one thread alone works in
+/// Time that an idle thread looks for work before it sleeps: longer than one thread alone works in
 /// the middle of a query.
 pub(super) const AWAKE: Duration = Duration::from_micros(200);
-/// How often a thread that waits looks before it lets others have its core in between.
+/// Checks of a waiting thread before it yields its core between checks.
 const LOOKS: u32 = 100;
 
-/// Threads of a pool.
+/// Helper threads of a pool, beside the calling thread.
 #[derive(Debug)]
 pub(super) struct Helpers {
     pub(super) pool: Arc<rayon::ThreadPool>,
-    /// The most of them that are used.
+    /// Most threads of the pool that are used.
     pub(super) count: usize,
-    /// How many threads of a private pool are awake; none for a pool that was lent.
+    /// Number of threads of a private pool that are awake; none for a pool that was lent.
     pub(super) awake: Option<Arc<AtomicUsize>>,
-    /// The process that has them: the child of a fork has the pool, but none of its threads.
+    /// Process that has the threads: the child of a fork has the pool, but none of its threads.
     pub(super) process: u32,
 }
 
 impl Drop for Helpers {
     fn drop(&mut self) {
         if self.are_elsewhere() {
-            // What a thread of the parent had locked when it forked nobody will unlock. So the pool is left as it is.
+            // Nobody will unlock what a thread of the parent had locked at the fork. So the pool is
+            // leaked.
             std::mem::forget(Arc::clone(&self.pool));
         }
     }
@@ -56,7 +57,7 @@ impl Helpers {
         self.process != std::process::id()
     }
 
-    /// Does all jobs together with the calling thread, by so many threads at most.
+    /// Runs all jobs together with the calling thread, on at most `threads` threads.
     pub(super) fn share<J: Send>(
         &self,
         jobs: &mut [J],
@@ -79,8 +80,9 @@ impl Helpers {
         });
     }
 
-    /// Has so many helpers do something, and the calling thread too; tells each the number of its
-    /// thread, which is 0 for this one. It knows no kind of job: scopes of a pool are much to compile.
+    /// Runs `work` on `helpers` helpers and on the calling thread. It gets the number of its
+    /// thread, which is 0 for the calling one. It is generic over no type of job, since scopes of a
+    /// pool are slow to compile.
     fn help(&self, helpers: usize, work: &(dyn Fn(usize) + Sync)) {
         self.wake(helpers);
         let done = AtomicUsize::new(0);
@@ -98,7 +100,7 @@ impl Helpers {
         });
     }
 
-    /// Has so many threads of a private pool look for work from now on, unless they do.
+    /// Wakes threads of a private pool until `helpers` of them look for work.
     fn wake(&self, helpers: usize) {
         let Some(awake) = &self.awake else { return };
         let are = awake.load(Ordering::Acquire);
@@ -118,14 +120,14 @@ impl Helpers {
     }
 }
 
-/// Jobs side by side: one thread takes them from the front, others from the back.
+/// Adjacent jobs: their owner takes them from the front, other threads from the back.
 struct Share<'j, J> {
     first: usize,
     jobs: &'j mut [J],
 }
 
 impl<'j, J> Share<'j, J> {
-    /// A job and its number.
+    /// Takes a job, with its number.
     fn take(&mut self, from_front: bool) -> Option<(usize, &'j mut J)> {
         let jobs = std::mem::take(&mut self.jobs);
         let (job, rest) = if from_front {
@@ -144,7 +146,7 @@ impl<'j, J> Share<'j, J> {
     }
 }
 
-/// Does the jobs of one share, and then of the others, until none is left.
+/// Runs the jobs of one share, and then of the others, until none is left.
 fn do_all<J>(shares: &[Mutex<Share<'_, J>>], own: usize, work: &dyn Fn(usize, &mut J)) {
     let (before, after) = shares.split_at(own);
     for (which, share) in after.iter().chain(before).enumerate() {
@@ -156,7 +158,8 @@ fn do_all<J>(shares: &[Mutex<Share<'_, J>>], own: usize, work: &dyn Fn(usize, &m
     }
 }
 
-/// Waiting for something that is about to happen: spinning at first, then giving way to other threads, and not for long.
+/// Backoff of a thread that waits for an imminent event: spins, then yields, and gives up after
+/// [`AWAKE`].
 #[derive(Default)]
 pub(super) struct Backoff {
     looks: u32,
@@ -164,7 +167,7 @@ pub(super) struct Backoff {
 }
 
 impl Backoff {
-    /// Waits a moment; whether to go on waiting.
+    /// Waits a moment. Returns whether to go on waiting.
     pub(super) fn waits(&mut self) -> bool {
         self.looks += 1;
         if self.looks < LOOKS {

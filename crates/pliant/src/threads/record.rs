@@ -1,17 +1,17 @@
-//! A record of jobs: how long each takes when one thread does all, for a replay on more workers.
+//! Record of jobs: how long each takes when one thread does all, for a replay on more workers.
 //!
-//! Work is cut as it would be for some number of threads, and done by the calling thread alone. The
-//! clock is the caller's, as the library reads none.
+//! Work is cut as for some number of threads, and done by the calling thread alone. The clock is
+//! the caller's, as the library reads none.
 
 use super::lock::locked;
 use std::fmt;
 use std::num::NonZeroUsize;
 use std::sync::{Arc, Mutex};
 
-/// A clock of the caller's, in nanoseconds.
+/// Clock of the caller, which returns nanoseconds.
 pub type Clock = Arc<dyn Fn() -> u64 + Send + Sync>;
 
-/// A part of a step: what one thread does, then jobs that several may share.
+/// Part of a step: serial work of one thread, then jobs that several may share.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RecordedPart {
     /// Nanoseconds between the jobs of the part before and these.
@@ -22,9 +22,9 @@ pub struct RecordedPart {
     pub most_threads: usize,
 }
 
-/// Takes the times of all jobs.
+/// Recorder of the times of all jobs.
 pub(super) struct Recorder {
-    /// As many threads as work is cut for.
+    /// Number of threads for which work is cut.
     pub(super) count: NonZeroUsize,
     clock: Clock,
     log: Mutex<Log>,
@@ -32,9 +32,9 @@ pub(super) struct Recorder {
 
 #[derive(Default)]
 struct Log {
-    /// When the last part, or piece of work, ended.
+    /// Time at which the last part, or piece of work, ended.
     since: u64,
-    /// Times of the pieces of the part that is going on.
+    /// Times of the pieces of the present part.
     jobs: Vec<u64>,
     parts: Vec<RecordedPart>,
 }
@@ -48,7 +48,7 @@ impl Recorder {
         Self { count, clock, log }
     }
 
-    /// Does all jobs, and takes their times.
+    /// Runs all jobs, and records their times as a part.
     pub(super) fn run<J>(&self, jobs: &mut [J], most_threads: usize, work: &dyn Fn(usize, &mut J)) {
         let serial = self.lap();
         for (number, job) in jobs.iter_mut().enumerate() {
@@ -64,20 +64,20 @@ impl Recorder {
         });
     }
 
-    /// A piece of a job ends here, the rest of which another thread could have done.
+    /// Marks the end of a piece of a job, after which another thread could have done the rest.
     pub(super) fn mark(&self) {
         let time = self.lap();
         locked(&self.log).jobs.push(time);
     }
 
-    /// The time since the last lap.
+    /// Nanoseconds since the last lap.
     fn lap(&self) -> u64 {
         let now = (self.clock)();
         let log = &mut *locked(&self.log);
         now - std::mem::replace(&mut log.since, now)
     }
 
-    /// What was recorded since the last call; its last part has no jobs.
+    /// Returns the record since the last call; its last part has no jobs.
     pub(super) fn take(&self) -> Vec<RecordedPart> {
         let serial = self.lap();
         let mut parts = std::mem::take(&mut locked(&self.log).parts);

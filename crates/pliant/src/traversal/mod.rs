@@ -6,7 +6,7 @@
 //! while some task has pairs of nodes:
 //!     distribute:  if a task is idle, or the only one has many: the last pairs, to all tasks
 //!     every task, until it needs stale boxes, or its list of pairs of leaves is long:
-//!         take a batch from the top of its stack            hundreds; of a visitor 1 pair, then 2, 4, ...
+//!         take a batch from the top of its stack            hundreds; for a visitor 1, 2, 4, ...
 //!         expand it: children that overlap onto the stack, pairs of leaves onto the list
 //!     refit:       the stale wide nodes that tasks need     only refitting writes boxes
 //!     when the lists are long, or the stacks empty:

@@ -33,10 +33,10 @@ pub enum ContactKind {
 /// it. Then their inside is the differences of what is inside either, seen in its own plane or
 /// line. So
 ///
-/// - two triangles with area cross under two conditions: each has corners on both open sides of the
-///   other's plane, and their open segments on the line of both planes overlap. Let p1 and p2 be the corners alone on
-///   their sides, and the others in the order of `pliant`'s vector lanes. Then these are the two
-///   signs of Guigue and Devillers (2003), both negative: a zero is two ends in one point;
+/// - two triangles with area cross if each has corners on both open sides of the other's plane.
+///   Their open segments on the line of both planes must also overlap. Let p1 and p2 be the corners
+///   alone on their sides, and the others in the order of `pliant`'s vector lanes. Then these are
+///   the two signs of Guigue and Devillers (2003), both negative: a zero is two ends in one point;
 /// - a segment crosses a triangle with area if its ends are on both open sides of the plane. Its
 ///   line must also have the three edges on one side;
 /// - all others do not: two segments span no space, a point has nothing inside.

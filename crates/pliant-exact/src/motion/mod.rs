@@ -53,8 +53,8 @@ type Vector = [Polynomial; 3];
 
 /// Difference of two elements: a polygon of three or four moving corners.
 ///
-/// It is a triangle or a parallelogram. A triangle has the corners of one element less the vertex.
-/// A parallelogram has an end of the one edge less an end of the other, in order around.
+/// A triangle and a vertex give a triangle: its corners less the vertex. Two edges give a
+/// parallelogram: an end of the one edge less an end of the other, in order around.
 struct Polygon {
     corners: [Vector; 4],
     /// The polygon in double precision, which is certain of most signs.

@@ -111,9 +111,9 @@ fn visit_between(
 /// a step a bit, and there may be a thousand. As many are between 1 and roots that are tiny. So a
 /// long part is cut at a power of two, too, in the middle of the powers that it holds.
 struct Cuts {
-    /// Near it are those that are near each other.
+    /// Place near which roots are near each other.
     of: Option<Fraction>,
-    /// Approximate place of the root. `error` bounds its distance from the exact one.
+    /// Approximation of that place. `error` bounds its distance from the exact one.
     about: Dyadic,
     error: Dyadic,
     turn: usize,

@@ -15,12 +15,12 @@ use super::polynomial::Polynomial;
 ///
 /// Let s be the sign of a in a t^3 + b t^2 + c t + d. The third is s (2 (b^2 - 3 a c) t + b c - 9 a
 /// d): the remainder times -9 |a|. What comes after one of degree 1 is a number, of which the sign
-/// is enough. Its sign is opposite to the quadratic's at the root of the linear one, and zero if the
-/// polynomial has multiple roots.
+/// is enough. Its sign is opposite to the quadratic's at the root of the linear one, and zero if
+/// the polynomial has multiple roots.
 ///
-/// Then all its roots are fractions. A double root is the root of the one of degree 1, and all roots
-/// add up to -b / a. A triple root is -b / (3 a). A polynomial of degree 1 is itself
-/// the one of degree 1: its root is a fraction too.
+/// Then all its roots are fractions. A double root is the root of the one of degree 1, and all
+/// roots add up to -b / a. A triple root is -b / (3 a). A polynomial of degree 1 is itself the one
+/// of degree 1: its root is a fraction too.
 #[derive(Clone, Debug)]
 pub(super) struct Sturm {
     /// The polynomial, its derivative, and of a cube the third, which may be zero.

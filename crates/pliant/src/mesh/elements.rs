@@ -75,9 +75,9 @@ impl Elements {
     /// Assigns to each triangle from `first` on the vertices and edges that no earlier one has.
     ///
     /// Goes in tree order. The first `used` vertices are assigned before. `numbers` gives the
-    /// caller's numbers of the sides of a triangle that are edges. `is_new` says whether no triangle
-    /// has the edge yet; it is told the number in tree order that it would get. Returns `None` if
-    /// `stop` returned true.
+    /// caller's numbers of the sides of a triangle that are edges. `is_new` says whether no
+    /// triangle has the edge yet; it is told the number in tree order that it would get. Returns
+    /// `None` if `stop` returned true.
     fn give_to_triangles(
         &mut self,
         order: &Order,

@@ -2,9 +2,9 @@
 //!
 //! A step has some dozens of parts, each shorter than waking a thread takes. So threads of a
 //! private pool stay awake for a while after a part and look for more work. Only as many are woken
-//! as the part pays for. Each begins with adjacent jobs, and then steals others' jobs from the
-//! back. A thread thus mostly reads what it wrote in the part before. Threads of a pool that an
-//! application has lent are not kept awake.
+//! as the part pays for. Each begins with adjacent jobs, then steals from the back of others' jobs;
+//! so it mostly reads what it wrote in the part before. Threads of a pool that an application has
+//! lent are not kept awake.
 
 use super::lock::locked;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -14,11 +14,11 @@ pub type Clock = Arc<dyn Fn() -> u64 + Send + Sync>;
 /// Part of a step: serial work of one thread, then jobs that several may share.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RecordedPart {
-    /// Nanoseconds between the jobs of the part before and these.
+    /// Nanoseconds of serial work, from the end of the previous part's jobs to the start of these.
     pub serial: u64,
     /// Nanoseconds that each job took, in order.
     pub jobs: Vec<u64>,
-    /// The most threads that would share them, however many there are.
+    /// Most threads that would share the jobs, however many there are.
     pub most_threads: usize,
 }
 

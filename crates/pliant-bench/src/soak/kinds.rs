@@ -18,7 +18,7 @@ pub(super) enum Much {
     First,
 }
 
-/// How many hits a list has, and a hash over all their figures.
+/// Number of hits in a list, and a hash over all their figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Digest(usize, u64);
 
@@ -32,7 +32,7 @@ impl Write for Hash {
     }
 }
 
-/// The text of a number is another if one of its bits is.
+/// Digest of a query's hits, hashed as text: numbers with different bits have different texts.
 fn digest<H: Copy + Debug>(query: Query<'_, H>, much: Much) -> Result<Digest, Error> {
     let first;
     let hits = match much {

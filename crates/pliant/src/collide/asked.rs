@@ -240,8 +240,8 @@ impl<S: Coordinate> Common<S> {
         let (boxes, origin) = (needs.body_boxes(), step.origin);
         body_pairs.begin(request.of, bodies, boxes, origin, interrupt)?;
         let instructions = step.refit.instructions;
-        // The first batch holds bodies with themselves only. What is refitted then does not depend
-        // on the order in which threads take different bodies.
+        // Bodies with themselves are a batch of their own, the first. What is refitted then does
+        // not depend on the order in which threads take the others.
         while let Some(pairs) = body_pairs.next(bodies, instructions, interrupt) {
             if meet(&mut step, bodies, pairs).is_break() {
                 break;

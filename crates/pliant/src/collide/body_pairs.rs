@@ -82,7 +82,7 @@ impl BodyPairs {
         self.holds_for = None;
     }
 
-    /// Removes the body of a rank; later bodies move down by one rank.
+    /// Removes the body of a rank; the ranks of later bodies decrease by one.
     pub(crate) fn remove(&mut self, rank: Rank) {
         self.broad_phase.remove(rank);
         self.forget();

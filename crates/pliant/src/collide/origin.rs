@@ -6,6 +6,7 @@ use crate::bodies::{Bodies, Body};
 use crate::geometry::{Bounds, Origin};
 use crate::kernels::Coordinate;
 
+/// Floating origin of a world.
 #[derive(Debug, Default)]
 pub(crate) struct FloatingOrigin {
     /// Coordinates of the origin; zero for `f32`.

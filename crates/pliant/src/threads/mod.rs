@@ -1,9 +1,9 @@
 //! Threads of a world: jobs for one thread or many. No other folder names a thread pool.
 //!
-//! Idea: work is cut into jobs by its size, and a part uses as many threads as its work pays for
-//! (`grain`). The others sleep (`pool`). Invariant: every job writes only its own data, and results
-//! are joined in the order of jobs, or sorted. So answers, their order and counters are the same
-//! for any number of threads.
+//! Idea: work is cut into jobs by its size, never by the number of threads. A part uses as many
+//! threads as its work pays for (`grain`), while the others sleep (`pool`). Invariant: every job
+//! writes only its own data, and results are joined in the order of jobs, or sorted. So answers,
+//! their order and counters are the same for any number of threads.
 
 mod budget;
 mod exchange;
@@ -27,7 +27,7 @@ pub use record::{Clock, RecordedPart};
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
-/// Most threads of a world: more than any use pays for.
+/// Most threads of a world: more than machines have.
 const MOST: usize = 256;
 
 /// Threads of a world.

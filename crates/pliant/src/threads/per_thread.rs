@@ -1,4 +1,4 @@
-//! Thread-local values of a query: each thread works on its own without waiting for others.
+//! Per-thread values of a query: each thread works on its own without waiting for others.
 
 use super::lock::locked;
 use crate::held;

@@ -30,6 +30,7 @@ pub(super) struct Recorder {
     log: Mutex<Log>,
 }
 
+/// Parts recorded so far, and the present one.
 #[derive(Default)]
 struct Log {
     /// Time at which the last part, or piece of work, ended.

@@ -107,8 +107,8 @@ impl BlockTests {
     }
 
     /// Finds the candidates in the next leaves of a run, each a block, with themselves and their
-    /// later neighbours. Returns how many pairs of leaves were compared: less than `most`, and then
-    /// one more leaf with its neighbours.
+    /// later neighbours. Returns how many pairs of leaves were compared. That is at most `most`,
+    /// plus the pairs of one more leaf.
     pub(super) fn of_neighbours(
         &mut self,
         instructions: Instructions,

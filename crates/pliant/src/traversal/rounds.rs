@@ -15,7 +15,7 @@ use crate::queries::{LeafWork, Needs};
 use crate::threads::{Exchange, Interrupt};
 use crate::tree::{BoxSet, LeafPair, NodePair};
 
-/// Items of one pair of trees that a task takes at once: larger batches leave less to share.
+/// Most items of one pair of trees that a task takes at once; the rest can be given to others.
 const AT_ONCE: usize = 512;
 /// Limits after which a task looks at its hits, and at whether another task waits for work.
 const LIMITS: TaskLimits = TaskLimits {
@@ -35,8 +35,8 @@ pub(crate) struct Round<'q, S> {
     pub(crate) pair: PairOf<'q, S>,
 }
 
-/// Lookup of a pair of trees by its number: the trees, and their numbers. None if there is nothing
-/// to be done for it.
+/// Lookup of a pair of trees by its number: the trees, and their numbers. None if a tree has no
+/// boxes for the query.
 pub(crate) type PairOf<'q, S> =
     &'q (dyn Fn(u32) -> Option<(TreePair<'q, S, &'q BoxSet>, [u32; 2])> + Sync);
 
@@ -84,7 +84,7 @@ impl Task {
             self.share.looked_at.push((pair, looked_at));
             round.exchange.mark();
             if !work.has_room() || round.interrupt.is_set() {
-                // There are too many hits, or nobody wants them any more.
+                // There are too many hits, or the query is interrupted.
                 self.share.todo.clear();
                 break;
             }

@@ -12,6 +12,7 @@ pub(crate) struct Item {
     pub(crate) piece: Piece,
 }
 
+/// Piece of work, within one pair of trees.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Piece {
     /// Pair of nodes that is to be expanded.

@@ -16,7 +16,7 @@ pub(crate) struct Side<'t, S, B = &'t mut BoxSet> {
     pub(crate) tree: &'t Tree,
     pub(crate) boxes: B,
     pub(crate) source: Source<'t, S>,
-    /// Positions of vertices in motion, for kinds that look along motions.
+    /// Positions at the end of the motion, for kinds that look along motions.
     pub(crate) motion: Option<&'t Points<S>>,
     /// Near elements, for kinds that are shown runs of triangles.
     pub(crate) elements: Option<NearElements<'t>>,
@@ -61,7 +61,7 @@ impl<S: Coordinate, B: Deref<Target = BoxSet>> Side<'_, S, B> {
         }
     }
 
-    /// Positions at the end of a motion, for kinds that look along motions.
+    /// Positions at the end of what boxes hold, for kinds that look along motions.
     pub(super) fn end(&self) -> Option<&Points<S>> {
         self.source.end().map(|end| end.positions)
     }

@@ -1,4 +1,5 @@
-//! Walk of a task down two trees, depth first, from pairs of nodes to pairs of leaves.
+//! Walk of a task down two trees, or one twice, depth first: from pairs of nodes to pairs of
+//! leaves.
 //!
 //! It has its own stack and lists, and knows no kind of query, only trees and boxes.
 

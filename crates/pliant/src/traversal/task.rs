@@ -18,8 +18,9 @@ use std::ops::{ControlFlow, Range};
 
 /// Pairs of blocks of triangles that are tested before a task checks whether it has found enough.
 const BLOCK_PAIRS_BEFORE_LOOK: usize = 128;
-/// Pairs of runs that are tested before a task checks whether it has found enough. Fewer than
-/// pairs of blocks: two runs may have nine times as many near elements as two blocks have triangles.
+/// Pairs of runs that are tested before a task checks whether it has found enough. These are fewer
+/// than pairs of blocks: two runs may have nine times as many near elements as two blocks have
+/// triangles.
 const RUN_PAIRS_BEFORE_LOOK: usize = 32;
 
 /// A task, and its buffers, kept from query to query.

@@ -112,8 +112,8 @@ fn direction(closest: &Closest) -> Option<[f64; 3]> {
 }
 
 /// Shows `take` hits with what is measured of them, in their order. `pair` says what each is as the
-/// caller numbers things, and `corners` where its corners are. Interrupted, or where there are none,
-/// it ends early.
+/// caller numbers things, and `corners` where its corners are. Interrupted, or where there are
+/// none, it ends early.
 #[inline(always)]
 pub(crate) fn measure_all<'c, I: Simd, S: Coordinate, H: Measurable, T: Copy>(
     i: I,

@@ -564,12 +564,12 @@ def test_what_comes_close(jumping: tuple[Path, Path]) -> None:
 
 def test_what_cannot_be_close_is_refused(jumping: tuple[Path, Path]) -> None:
     refused: list[tuple[tuple[Path, ...], dict[str, object], str]] = [
-        (jumping, {"within": -1.0}, "a distance must be a finite number, .*; give within= such a number"),
-        (jumping, {"within": float("nan")}, "a distance must be a finite number"),
-        (jumping[:1], {"within": 1.0}, "neighbouring triangles .*; name another body, and leave out itself="),
+        (jumping, {"within": -1.0}, "a distance must be finite and at least 0; give within= in the unit of the files"),
+        (jumping, {"within": float("nan")}, "a distance must be finite"),
+        (jumping[:1], {"within": 1.0}, "neighbouring triangles .*; name two bodies or more and leave out itself="),
         (jumping, {"within": 1.0, "itself": True}, "neighbouring triangles"),
-        (jumping, {"within": 1.0, "crossing": True}, "cannot be asked at once; leave out within= or crossing="),
-        (jumping, {"within": 1.0, "swept": True}, "both cannot be asked at once; leave out within= or swept="),
+        (jumping, {"within": 1.0, "crossing": True}, "cannot be asked for in one check: .*; leave out within= or crossing="),
+        (jumping, {"within": 1.0, "swept": True}, "cannot be asked for in one check: .*; leave out within= or swept="),
     ]
     for paths, more, message in refused:
         with pytest.raises(pliant.Error, match=message):

@@ -507,15 +507,23 @@ impl From<Error> for Refused {
                 frame,
                 error,
             } => Self::from(error)
-                .about(format!("{}, frame {frame}", shown(&source_name)))
+                .about(match source_name.as_str() {
+                    "" => format!("frame {frame}"),
+                    name => format!("{}, frame {frame}", shown(name)),
+                })
                 .with("file", source_name)
                 .with("frame", frame),
-            Error::Missing { source_name, frame } | Error::PiecesChanged { source_name, frame } => {
-                Self::new("CannotRead", message)
-                    .with("file", source_name)
-                    .with("frame", frame)
+            Error::Missing {
+                source_name, frame, ..
             }
-            Error::FrameCounts { .. } | Error::AfterError => Self::new("CannotRead", message),
+            | Error::PiecesChanged {
+                source_name, frame, ..
+            } => Self::new("CannotRead", message)
+                .with("file", source_name)
+                .with("frame", frame),
+            Error::FrameCounts { .. } | Error::AfterError { .. } => {
+                Self::new("CannotRead", message)
+            }
             Error::TooManyPairs { frame, most } | Error::Endless { frame, most } => {
                 Self::new("TooLarge", message)
                     .with("what", "pairs")

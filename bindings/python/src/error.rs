@@ -229,25 +229,31 @@ pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str
         Error::FrameCounts { .. } => {
             Some("export the same frames of each, or one frame of what stands still")
         }
-        Error::Missing { .. } => Some("wait until it is written, then check again"),
+        Error::Missing { .. } => Some("wait until it is written to its end, or export it again"),
         Error::NoSuchFrame { .. } | Error::NoSuchName { .. } => Some("choose one of these"),
-        Error::AfterError => Some("begin another pliant.check"),
-        Error::BadBaseline { .. } => {
-            Some("name a file that `pliant check --format json` wrote of these bodies")
+        Error::AfterError { .. } => Some("begin another pliant.check"),
+        Error::BadBaseline { .. } => Some(
+            "name a file that `pliant check --format json` wrote of these bodies, without \
+                 `--count` and `--first`",
+        ),
+        Error::PiecesChanged { by_name: true, .. } => {
+            Some("name the whole file, without the # and what follows it")
         }
         Error::PiecesChanged { .. } => Some("check it as a whole, without split="),
         Error::NoGroups { .. } => Some("give split=\"components\" for its connected pieces"),
-        Error::PiecesOfGroup { .. } => Some("split the whole file"),
-        Error::NamedTwice { .. } => Some("name it once"),
+        Error::PiecesOfGroup { .. } => Some("name the whole file"),
+        Error::NamedTwice { .. } => Some("leave out one of the two"),
         Error::NoClip => Some("leave out clip="),
         Error::EmptyGroup { .. } => Some("give each group a list of its bodies"),
-        Error::Distance(_) => Some("give within= such a number, in the units of the files"),
+        Error::Distance(_) => Some("give within= in the unit of the files"),
         Error::WithinItself => {
-            Some("name another body, and leave out itself=, or leave out within=")
+            Some("name two bodies or more and leave out itself=, or leave out within=")
         }
         Error::CrossingWithin => Some("leave out within= or crossing=, and check twice"),
         Error::SweptWithin => Some("leave out within= or swept=, and check twice"),
-        Error::SweptOneFrame => Some("name a sequence of frames, or leave out swept="),
+        Error::SweptOneFrame { .. } => {
+            Some("name a sequence, choose more of it with frames=, or leave out swept=")
+        }
         Error::SweptBaseline => Some("leave out baseline= or swept=, and check twice"),
         Error::TooManyPairs { .. }
         | Error::Endless { .. }
@@ -255,7 +261,7 @@ pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str
         | Error::EndlessImpacts { .. } => {
             Some("ask for one pair of each frame with first=True, without crossing=")
         }
-        Error::OnePoint { .. } => Some("mend it, or export it without them"),
+        Error::OnePoint { .. } => Some("remove them, and export it again"),
         _ => None,
     }
 }

@@ -5,7 +5,7 @@
 //! of triangles, not by their numbers. A file that lacks pairs, or names other bodies, is refused.
 
 use crate::bodies::Bodies;
-use crate::error::Error;
+use crate::error::{Error, quoted};
 use crate::filter::Names;
 use crate::row::Row;
 use pliant_io::Body as Source;
@@ -31,6 +31,7 @@ struct WrittenBody {
 
 #[derive(Deserialize)]
 struct WrittenFrame {
+    frame: Option<usize>,
     /// `None` between frames whose meshes differ.
     count: Option<usize>,
     complete: Option<bool>,
@@ -55,36 +56,59 @@ pub(crate) fn read(
     let written = parse(path, most).map_err(bad)?;
     let names = Names::new(sources, bodies, &[])?;
     let mut numbers = Vec::new();
-    for body in &written.bodies {
+    for (body, place) in written.bodies.iter().zip(0..) {
+        let name = quoted(&body.name);
         let Some(number) = names.of_body(&body.name) else {
-            return Err(bad(names.unknown("body", &body.name).to_string()));
+            return Err(bad(format!(
+                "its body {place}, {name}, is not checked here: {}",
+                names.unknown("body", &body.name)
+            )));
         };
         let triangles = bodies.facts(sources, number).triangles;
         if triangles != body.triangles {
             return Err(bad(format!(
-                "{} has {} triangles there, and {triangles} here",
-                crate::error::quoted(&body.name),
+                "its body {place}, {name}, has {} triangles there and {triangles} here, and pairs \
+                 are known for the same mesh only",
                 body.triangles
             )));
         }
         numbers.push(number);
     }
-    let row_now = |[body_a, a, body_b, b]: Row| {
-        let now = |body: u32, triangle: u32| {
-            let number = *numbers.get(body as usize)?;
-            let source = bodies.source_of(number);
-            let is_there = (triangle as usize) < sources[source].triangles().len()
-                && bodies.of_triangle(source as u32, triangle) == Some(number);
-            is_there.then_some((number, triangle))
+    let now = |body: u32, triangle: u32| {
+        let Some(&number) = numbers.get(body as usize) else {
+            return Err(format!(
+                "there is no body {body}; its bodies are 0 to {}",
+                numbers.len().saturating_sub(1)
+            ));
         };
+        let source = bodies.source_of(number);
+        let is_there = (triangle as usize) < sources[source].triangles().len()
+            && bodies.of_triangle(source as u32, triangle) == Some(number);
+        if is_there {
+            return Ok((number, triangle));
+        }
+        let facts = bodies.facts(sources, number);
+        Err(format!(
+            "body {body}, {}, has no triangle {triangle}; it has {}, the first is {}",
+            quoted(&facts.name),
+            facts.triangles,
+            facts.first_triangle
+        ))
+    };
+    let row_now = |[body_a, a, body_b, b]: Row| {
         let (one, other) = (now(body_a, a)?, now(body_b, b)?);
         let ((body_a, a), (body_b, b)) = (one.min(other), one.max(other));
-        Some([body_a, a, body_b, b])
+        Ok([body_a, a, body_b, b])
     };
-    let pairs = written.frames.into_iter().filter_map(|frame| frame.pairs);
-    let rows = pairs.flatten().map(row_now).collect::<Option<Vec<_>>>();
-    let mut rows =
-        rows.ok_or_else(|| bad("a pair of it names a triangle that is not there".into()))?;
+    let mut rows = Vec::new();
+    for (frame, place) in written.frames.iter().zip(0..) {
+        for (&row, pair) in frame.pairs.iter().flatten().zip(0_usize..) {
+            let row_now = row_now(row);
+            let of_frame = frame.frame.unwrap_or(place);
+            let why = |why: String| bad(format!("frame {of_frame}, pair {pair}, {row:?}: {why}"));
+            rows.push(row_now.map_err(why)?);
+        }
+    }
     rows.sort_unstable();
     rows.dedup();
     Ok(rows)
@@ -97,7 +121,7 @@ fn parse(path: &Path, most: u64) -> Result<Written, String> {
         .map_err(|error| error.to_string())?
         .is_file();
     if !is_file {
-        return Err("it is no file".into());
+        return Err("it is not a regular file".into());
     }
     let file = File::open(path).map_err(|error| error.to_string())?;
     // Reading is bounded, not the length in the metadata: the file may grow.
@@ -107,33 +131,48 @@ fn parse(path: &Path, most: u64) -> Result<Written, String> {
         .read_to_end(&mut text);
     read.map_err(|error| error.to_string())?;
     if text.len() as u64 > most {
-        return Err("it is larger than is allowed".into());
+        return Err(format!(
+            "it has more than {most} bytes, the most that it may take"
+        ));
     }
     let mut written: Written = serde_json::from_slice(&text)
-        .map_err(|error| format!("it is not what a check writes as JSON ({error})"))?;
+        .map_err(|error| format!("it is not the JSON that a check writes: {error}"))?;
     drop(text);
     // Impacts between frames are not pairs of triangles.
     written.frames.retain(|frame| frame.until.is_none());
-    let has_all = |frame: &WrittenFrame| {
-        frame.complete != Some(false)
-            && frame.pairs.as_ref().map(Vec::len).or(Some(0)) == frame.count
-    };
     if written.format != 1 {
         return Err(format!(
-            "it has format {}, which is not known",
+            "it has format {}, and only format 1 is read",
             written.format
         ));
     }
-    if written.error.is_some() {
-        return Err("the check that wrote it failed".into());
+    if let Some(error) = &written.error {
+        return Err(format!("the check that wrote it failed: {error}"));
     }
-    if written.frames.iter().any(|frame| frame.changed.is_some()) {
-        return Err("a mesh changes in it from frame to frame, and so do its triangles".into());
-    }
-    if !written.frames.iter().all(has_all) {
-        return Err(
-            "it does not list all pairs that it counted; write it again with all of them".into(),
-        );
+    for (frame, place) in written.frames.iter().zip(0..) {
+        let number = frame.frame.unwrap_or(place);
+        if frame.changed.is_some() {
+            return Err(format!(
+                "in its frame {number} a mesh is another than before, and its triangles have other \
+                 numbers; a baseline needs meshes that stay"
+            ));
+        }
+        let listed = frame.pairs.as_ref().map_or(0, Vec::len);
+        match frame.count {
+            Some(count) if count != listed => {
+                return Err(format!(
+                    "in its frame {number} it counts {count} pairs and lists {listed}; write it \
+                     again with all of them"
+                ));
+            }
+            Some(_) if frame.complete != Some(false) => {}
+            _ => {
+                return Err(format!(
+                    "it does not have all pairs of its frame {number}; write it again with all of \
+                     them"
+                ));
+            }
+        }
     }
     Ok(written)
 }

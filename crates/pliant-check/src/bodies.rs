@@ -37,6 +37,8 @@ struct Parts {
     pieces: Pieces,
     /// Names of groups; `None` for connected pieces, which have numbers.
     names: Option<Vec<String>>,
+    /// Whether arguments name groups of the source.
+    by_name: bool,
 }
 
 /// Bodies of all sources, numbered consecutively.
@@ -56,6 +58,7 @@ impl Parts {
             (Some(Split::Components), []) => Some(Self {
                 pieces: Pieces::of(source.triangles(), source.vertex_count()),
                 names: None,
+                by_name: false,
             }),
             (Some(Split::Components), [name, ..]) => {
                 let name = format!("{}#{name}", source.name());
@@ -65,17 +68,17 @@ impl Parts {
             (Some(Split::Groups), []) if source.is_part() => None,
             (Some(Split::Groups), []) => {
                 let groups = source.groups()?;
-                (!groups.names.is_empty()).then(|| Self::groups(source, groups))
+                (!groups.names.is_empty()).then(|| Self::groups(source, groups, false))
             }
             (None | Some(Split::Groups), _) => {
                 let groups = some_of(source, source.groups()?, named, split.is_some())?;
-                Some(Self::groups(source, groups))
+                Some(Self::groups(source, groups, true))
             }
         };
         Ok(parts)
     }
 
-    fn groups(source: &Source, groups: Groups) -> Self {
+    fn groups(source: &Source, groups: Groups, by_name: bool) -> Self {
         let Groups {
             names,
             of_triangles,
@@ -89,6 +92,7 @@ impl Parts {
                 source.vertex_count(),
             ),
             names: Some(names),
+            by_name,
         }
     }
 
@@ -174,6 +178,11 @@ impl Bodies {
         self.parts.contains_key(&source)
     }
 
+    /// Whether a source takes part only by the groups that arguments name.
+    pub(crate) fn is_by_name(&self, source: usize) -> bool {
+        self.parts.get(&source).is_some_and(|parts| parts.by_name)
+    }
+
     /// Whether any source is split.
     pub(crate) fn are_split(&self) -> bool {
         !self.parts.is_empty()
@@ -210,7 +219,7 @@ impl Bodies {
     /// Bodies of a source by the text behind the `#`: the piece of this number, or the groups of
     /// this name.
     pub(crate) fn called(&self, source: usize, name: &str) -> Vec<u32> {
-        let Some(Parts { pieces, names }) = self.parts.get(&source) else {
+        let Some(Parts { pieces, names, .. }) = self.parts.get(&source) else {
             return Vec::new();
         };
         let of_source = self.of_source(source);

@@ -49,7 +49,8 @@ pub struct Check {
     owners_of: usize,
     /// Frame returned last, until its interval to the next frame was returned.
     from: Option<usize>,
-    failed: bool,
+    /// Frame and message of the error that ended the check.
+    failed: Option<(usize, String)>,
 }
 
 /// Converts a pair of sources, which the world knows, into a pair of bodies. `None` if these bodies
@@ -207,7 +208,8 @@ impl Check {
     }
 
     fn of(opened: Opened, settings: &Settings) -> Result<Self, Error> {
-        opened.sources.iter().try_for_each(one_point::check)?;
+        let sources = &mut opened.sources.iter();
+        sources.try_for_each(|source| one_point::check(source, 0))?;
         let bodies = Bodies::of(&opened, settings.split)?;
         let sequence = Sequence::new(opened.sources, settings.options)?;
         let filter = Filter::new(
@@ -262,7 +264,10 @@ impl Check {
         }
         if asked.swept {
             match &asked {
-                _ if frames.count < 2 => return Err(Error::SweptOneFrame),
+                _ if frames.count < 2 => {
+                    let count = frames.count;
+                    return Err(Error::SweptOneFrame { count });
+                }
                 Settings {
                     within: Some(_), ..
                 } => return Err(Error::SweptWithin),
@@ -279,7 +284,7 @@ impl Check {
             remarks: Remarks::of(sequence.sources.len()),
             places: Places::new(),
             lives: Lives::new(),
-            failed: false,
+            failed: None,
             of: Selection::World,
             told: sequence.meshes.clone(),
             owners: Vec::new(),
@@ -395,21 +400,39 @@ impl Check {
     ///
     /// A file cannot be read. No frame follows.
     pub fn begin(&mut self) -> Result<(), Error> {
-        self.failed = true;
-        self.sequence.read_to(self.frames.start)?;
-        self.failed = false;
-        Ok(())
+        let frame = self.frames.start;
+        self.ending_at(frame, |check| check.sequence.read_to(frame))
+    }
+
+    /// Does `work` on a frame, unless an earlier call failed. Any error but an interruption ends
+    /// the check.
+    fn ending_at<T>(
+        &mut self,
+        frame: usize,
+        work: impl FnOnce(&mut Self) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        if let Some((frame, error)) = self.failed.clone() {
+            return Err(Error::AfterError { frame, error });
+        }
+        // Set first, so that a panic leaves it set.
+        self.failed = Some((frame, "an earlier call panicked".to_owned()));
+        let done = work(self);
+        self.failed = match &done {
+            // An interrupted search loses nothing: the frame stays read.
+            Ok(_) | Err(Error::Interrupted { .. }) => None,
+            Err(error) => Some((frame, error.to_string())),
+        };
+        done
     }
 
     /// Bounding box of a source in its current frame: lower and upper corner.
     ///
-    /// Costs O(t) for t triangles. Without triangles, +∞ and −∞.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such source.
+    /// Costs O(t) for t triangles. Without triangles, and for a source that does not exist, +∞ and
+    /// −∞.
     pub fn box_of(&self, source: usize) -> [[f64; 3]; 2] {
-        let source = &self.sequence.sources[source];
+        let Some(source) = self.sequence.sources.get(source) else {
+            return around([]);
+        };
         let corners = source.triangles().as_flattened().iter();
         around(corners.map(|&vertex| source.positions().get(vertex)))
     }
@@ -486,14 +509,13 @@ impl Check {
         &mut self,
         stop: Option<&(dyn Fn() -> bool + Sync)>,
     ) -> Result<Option<Found>, Error> {
-        if self.failed {
-            return Err(Error::AfterError);
-        }
+        self.ending_at(self.frames.start, |check| check.search_frame(stop))
+    }
+
+    fn search_frame(&mut self, stop: Option<Question>) -> Result<Option<Found>, Error> {
         if self.frames.count == 0 {
             return Ok(None);
         }
-        // Set first, so that an error on any way out leaves it set.
-        self.failed = true;
         self.from = None;
         if let Some(KnownPairs {
             frame, pairs: None, ..
@@ -537,7 +559,6 @@ impl Check {
         self.frames.start = frame.saturating_add(self.frames.step);
         self.frames.count -= 1;
         self.from = Some(frame);
-        self.failed = false;
         Ok(Some(found))
     }
 
@@ -598,27 +619,24 @@ impl Check {
         &mut self,
         stop: Option<&(dyn Fn() -> bool + Sync)>,
     ) -> Result<Option<Interval>, Error> {
-        if self.failed {
-            return Err(Error::AfterError);
-        }
+        self.ending_at(self.frames.start, |check| check.search_interval(stop))
+    }
+
+    fn search_interval(&mut self, stop: Option<Question>) -> Result<Option<Interval>, Error> {
         let wanted = self.asked.swept && self.frames.count > 0;
         let Some(frame) = self.from.filter(|_| wanted) else {
             return Ok(None);
         };
-        self.failed = true;
         let until = self.frames.start;
         let changed = self.sequence.move_to(until)?;
         let interval = if changed.is_empty() {
-            let interval = self.find_impacts(frame, until, stop);
-            self.failed = !matches!(interval, Err(Error::Interrupted { .. }));
-            interval?
+            self.find_impacts(frame, until, stop)?
         } else {
             let changed = changed.into_iter();
             let bodies = changed.flat_map(|source| self.bodies.of_source(source));
             Interval::none(frame, until, bodies.collect())
         };
         self.from = None;
-        self.failed = false;
         Ok(Some(interval))
     }
 
@@ -630,10 +648,7 @@ impl Check {
         stop: Option<Question>,
     ) -> Result<Found, Error> {
         self.go_to(frame)?;
-        let found = self.find(frame, wanted, stop);
-        // An interrupted search loses nothing: the frame stays read.
-        self.failed = !matches!(found, Err(Error::Interrupted { .. }));
-        found
+        self.find(frame, wanted, stop)
     }
 
     fn go_to(&mut self, frame: usize) -> Result<(), Error> {
@@ -642,8 +657,11 @@ impl Check {
         let mut meshes = self.sequence.meshes.iter().enumerate();
         let changed = meshes.find(|&(source, &mesh)| mesh != FIRST && self.bodies.is_split(source));
         if let Some((source, _)) = changed {
-            let source_name = self.sequence.sources[source].name().to_owned();
-            return Err(Error::PiecesChanged { source_name, frame });
+            return Err(Error::PiecesChanged {
+                source_name: self.sequence.sources[source].name().to_owned(),
+                frame,
+                by_name: self.bodies.is_by_name(source),
+            });
         }
         if let Some(baseline) = &mut self.baseline {
             baseline.compare(&self.sequence);
@@ -725,7 +743,7 @@ impl Check {
         let found = taker.end();
         self.baseline = baseline;
         match visited.map_err(|error| self.refused(frame, error))? {
-            ControlFlow::Break(Stop::Full) => Err(Error::TooManyPairs { frame, most }),
+            ControlFlow::Break(Stop::Full(most)) => Err(Error::TooManyPairs { frame, most }),
             ControlFlow::Break(Stop::Endless) => {
                 let most = MOST_COUNTED;
                 Err(Error::Endless { frame, most })
@@ -752,7 +770,7 @@ impl Check {
         let mut taker = ImpactTaker::new(frame, until, first, listed, most);
         let taken = self.take_impacts(&mut taker, stop);
         match taken.map_err(|error| self.refused(frame, error))? {
-            ControlFlow::Break(Stop::Full) => {
+            ControlFlow::Break(Stop::Full(most)) => {
                 return Err(Error::TooManyImpacts { frame, until, most });
             }
             ControlFlow::Break(_) => {
@@ -1006,7 +1024,7 @@ impl Check {
             ControlFlow::Continue(())
         }))?;
         if visited.is_break() {
-            return Ok(ControlFlow::Break(Stop::Full));
+            return Ok(ControlFlow::Break(Stop::Full(pairs.len())));
         }
         let only_touch = only_touch(&SplitSources(sources, bodies), &pairs);
         taker.leave_touching(only_touch.iter().filter(|&&it| it).count());

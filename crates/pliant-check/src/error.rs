@@ -12,6 +12,19 @@ pub(crate) fn quoted(name: &str) -> String {
     format!("\"{}\"", shown_within(name, 100))
 }
 
+/// `number` and the noun for that many.
+fn counted(number: usize, one: &str, many: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { many })
+}
+
+/// A source and a frame, as messages begin; the frame alone, if no source is to blame.
+fn place(source_name: &str, frame: usize) -> String {
+    match source_name {
+        "" => format!("frame {frame}"),
+        name => format!("{}, frame {frame}", shown(name)),
+    }
+}
+
 /// Why a check could not begin or could not go on.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -20,46 +33,54 @@ pub enum Error {
     #[error(transparent)]
     Read(#[from] pliant_io::Error),
     /// No source was given.
-    #[error("no path was given; each is a body")]
+    #[error("no file was given to check; give at least one")]
     NoSources,
     /// A clip was asked for, but no source has an animation.
-    #[error("no body has an animation, so none can be chosen")]
+    #[error("an animation was asked for by name, but none of the files has one")]
     NoClip,
     /// The distance is negative or not finite.
-    #[error("a distance must be a finite number, at least 0; this is {0}")]
+    #[error(
+        "pairs within {0:?} of each other cannot be searched for: a distance must be finite and at \
+         least 0"
+    )]
     Distance(f64),
     /// A distance was asked for with bodies checked against themselves.
     #[error(
-        "neighbouring triangles of a body always are close to each other: a distance is kept \
-         between two bodies or more, and not with themselves"
+        "pairs within a distance are searched for between different bodies only: neighbouring \
+         triangles of one body are always that close"
     )]
     WithinItself,
     /// Crossing places and a distance were asked for together.
     #[error(
-        "triangles that are close need not even touch: what crosses, and how close triangles are, \
-         cannot be asked at once"
+        "places that cross and pairs within a distance cannot be asked for in one check: triangles \
+         that are only close do not cross"
     )]
     CrossingWithin,
-    /// Impacts between frames were asked for, but only one frame is checked.
+    /// Impacts between frames were asked for, but fewer than two frames are checked.
     #[error(
-        "one frame alone is checked: there is no other to move to, and nothing to meet on the way"
+        "what meets on the way from frame to frame needs at least two frames, and {} to be checked",
+        if *count == 1 { "only one is" } else { "none is" }
     )]
-    SweptOneFrame,
+    SweptOneFrame {
+        /// Number of frames to be checked: 0 or 1.
+        count: usize,
+    },
     /// Impacts between frames and a distance were asked for together.
     #[error(
-        "on the way from frame to frame it is known who meets, not who comes close: both cannot be \
-         asked at once"
+        "what meets on the way from frame to frame and what is within a distance cannot be asked \
+         for in one check: on the way, only contacts are found"
     )]
     SweptWithin,
     /// Impacts between frames and a baseline were asked for together.
     #[error(
-        "a baseline has pairs of triangles, and on the way from frame to frame vertices meet \
-         triangles and edges meet edges: which of them are known cannot be said"
+        "a baseline cannot be used for what meets on the way from frame to frame: it lists pairs \
+         of triangles, and on the way vertices meet triangles and edges meet edges"
     )]
     SweptBaseline,
     /// Two moving sources differ in the number of frames.
     #[error(
-        "frame counts must be equal or 1: {} has {frames} frames, {} has {other_frames}",
+        "{} has {frames} frames and {} has {other_frames}; a body must have as many frames as the \
+         longest, or 1 if it stands still",
         shown(longest),
         shown(other)
     )]
@@ -74,17 +95,23 @@ pub enum Error {
         other_frames: usize,
     },
     /// A source ended before the number of frames that it announced.
-    #[error("{}: frame {frame} is missing", shown(source_name))]
+    #[error(
+        "{}: ends before frame {frame}, though it announces {}",
+        shown(source_name),
+        counted(*frames, "frame", "frames")
+    )]
     Missing {
         /// Name of the source.
         source_name: String,
         /// Number of the missing frame.
         frame: usize,
+        /// Number of frames that the source announced.
+        frames: usize,
     },
     /// The library refused a mesh or its positions.
-    #[error("{}, frame {frame}: {error}", shown(source_name))]
+    #[error("{}: {error}", place(source_name, *frame))]
     Refused {
-        /// Name of the source.
+        /// Name of the source; empty if the library blames no body.
         source_name: String,
         /// Number of the frame.
         frame: usize,
@@ -101,8 +128,8 @@ pub enum Error {
     },
     /// The list of pairs would exceed its memory limit.
     #[error(
-        "frame {frame}: more than {most} pairs are found, and their list needs more memory than is \
-         allowed"
+        "frame {frame}: has more than {most} pairs, the most that a list holds in the memory that \
+         is allowed"
     )]
     TooManyPairs {
         /// Number of the frame.
@@ -111,7 +138,7 @@ pub enum Error {
         most: usize,
     },
     /// A frame has more pairs than are counted.
-    #[error("frame {frame}: more than {most} pairs are found, and the rest is not looked for")]
+    #[error("frame {frame}: has more than {most} pairs, the most that are counted")]
     Endless {
         /// Number of the frame.
         frame: usize,
@@ -120,8 +147,8 @@ pub enum Error {
     },
     /// The list of impacts between two frames would exceed its memory limit.
     #[error(
-        "from frame {frame} to {until}: more than {most} pairs of elements meet, and their list \
-         needs more memory than is allowed"
+        "from frame {frame} to frame {until}: more than {most} pairs of elements meet, the most \
+         that a list holds in the memory that is allowed"
     )]
     TooManyImpacts {
         /// Number of the earlier frame.
@@ -133,8 +160,8 @@ pub enum Error {
     },
     /// More elements meet between two frames than are counted.
     #[error(
-        "from frame {frame} to {until}: more than {most} pairs of elements meet, and the rest is \
-         not looked for"
+        "from frame {frame} to frame {until}: more than {most} pairs of elements meet, the most \
+         that are counted"
     )]
     EndlessImpacts {
         /// Number of the earlier frame.
@@ -146,12 +173,15 @@ pub enum Error {
     },
     /// Too many triangles are the same point, so that each meets every other.
     #[error(
-        "{}: {count} triangles are one point, ({x:e}, {y:e}, {z:e}), where each meets every other",
-        shown(source_name)
+        "{}: {count} triangles have no size and lie at one point, ({x:?}, {y:?}, {z:?}); each \
+         would be a pair with every other",
+        place(source_name, *frame)
     )]
     OnePoint {
         /// Name of the source.
         source_name: String,
+        /// Number of the frame.
+        frame: usize,
         /// Number of such triangles.
         count: usize,
         /// First coordinate of the point.
@@ -162,13 +192,19 @@ pub enum Error {
         z: f64,
     },
     /// The caller interrupted the check.
-    #[error("frame {frame}: interrupted")]
+    #[error("frame {frame}: stopped on request; the same call can be made again")]
     Interrupted {
         /// Number of the frame.
         frame: usize,
     },
     /// A frame number in the settings is beyond the last frame.
-    #[error("{what} is frame {frame}, but the frames of these files are 0 to {last}")]
+    #[error(
+        "{what} is frame {frame}, but these files have {}",
+        match last {
+            0 => "one frame, 0".to_owned(),
+            last => format!("frames 0 to {last}"),
+        }
+    )]
     NoSuchFrame {
         /// Role of the frame, such as "the baseline".
         what: &'static str,
@@ -188,7 +224,7 @@ pub enum Error {
         there: String,
     },
     /// A group cannot have this name.
-    #[error("no group can be called {}: {why}", quoted(name))]
+    #[error("the group {} cannot be made: {why}", quoted(name))]
     BadGroup {
         /// The name.
         name: String,
@@ -196,7 +232,7 @@ pub enum Error {
         why: &'static str,
     },
     /// A group has no bodies.
-    #[error("no bodies are named for the group {}", quoted(name))]
+    #[error("the group {} has no bodies", quoted(name))]
     EmptyGroup {
         /// The name of the group.
         name: String,
@@ -211,22 +247,23 @@ pub enum Error {
     },
     /// A source that is split changes its mesh.
     #[error(
-        "{}, frame {frame}: has another mesh than before, and what a body is split into is known \
-         of its first mesh only",
-        shown(source_name)
+        "{}: the mesh is another than in the first frame, and which triangles form which body is \
+         known for the first frame's mesh only",
+        place(source_name, *frame)
     )]
     PiecesChanged {
         /// Name of the source.
         source_name: String,
         /// Number of the frame.
         frame: usize,
+        /// Whether arguments name groups of the source, as `scan.obj#arm` does.
+        by_name: bool,
     },
     /// Split into connected pieces, an argument names a group of an OBJ file.
     ///
-    /// Numbers of pieces would stand where the group's name does.
+    /// The number of a piece would stand where the group's name does.
     #[error(
-        "{} is a group, and behind the # of a file that is split into connected pieces stand their \
-         numbers",
+        "{} names a group, and a file of which groups are named is not split into connected pieces",
         shown(name)
     )]
     PiecesOfGroup {
@@ -235,11 +272,11 @@ pub enum Error {
     },
     /// Two arguments name the same group of an OBJ file.
     #[error(
-        "{}: {} is named twice, as {} and as {}",
-        shown(file),
+        "the group {} of {} is named by two arguments, {} and {}",
         quoted(group),
-        quoted(&names[0]),
-        quoted(&names[1])
+        shown(file),
+        quoted(&format!("{file}#{}", names[0])),
+        quoted(&format!("{file}#{}", names[1]))
     )]
     NamedTwice {
         /// Name of the file.
@@ -250,6 +287,11 @@ pub enum Error {
         names: [String; 2],
     },
     /// An earlier call failed, so that no frame follows.
-    #[error("an earlier frame could not be checked, so the frames after it are not")]
-    AfterError,
+    #[error("the check ended at frame {frame}, and nothing follows: {error}")]
+    AfterError {
+        /// Number of the frame at which the check ended.
+        frame: usize,
+        /// Message of the error with which it ended.
+        error: String,
+    },
 }

@@ -131,18 +131,21 @@ impl<'a> Names<'a> {
                 why,
             };
             if name.is_empty() {
-                return Err(bad("it needs a name"));
+                return Err(bad("its name is empty; give it one"));
             }
             if names.groups.contains_key(name.as_str()) {
                 return Err(bad(
-                    "there is a group of this name; name all its bodies at once, or choose another \
-                     name",
+                    "a group of this name is there already; name all its bodies at once, or choose \
+                     another name",
                 ));
             }
-            if names.of_bodies(name).is_some() || name.bytes().all(|c| c.is_ascii_digit()) {
+            if name.bytes().all(|c| c.is_ascii_digit()) {
                 return Err(bad(
-                    "it is the name or number of a body; choose another name",
+                    "a number stands for the body of that number; choose another name",
                 ));
+            }
+            if names.of_bodies(name).is_some() {
+                return Err(bad("a body is called so; choose another name"));
             }
             if bodies.is_empty() {
                 let name = name.clone();

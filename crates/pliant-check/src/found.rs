@@ -100,8 +100,8 @@ pub(crate) struct Closeness {
 pub(crate) enum Stop {
     /// The first pair was found.
     First,
-    /// The list reached its limit.
-    Full,
+    /// The list holds this many, and reached its limit or found no more memory.
+    Full(usize),
     /// More pairs than are counted.
     Endless,
 }
@@ -232,7 +232,7 @@ impl<'a> Taker<'a> {
         found.smallest = Some(found.smallest.map_or(row, |smallest| smallest.min(row)));
         if self.listed {
             if found.pairs.len() >= self.most || found.pairs.try_reserve(1).is_err() {
-                return ControlFlow::Break(Stop::Full);
+                return ControlFlow::Break(Stop::Full(found.pairs.len()));
             }
             found.pairs.push(row);
             if let Some(Closeness { distance, points }) = closeness
@@ -240,7 +240,7 @@ impl<'a> Taker<'a> {
                 && distance > 0.0
             {
                 if found.gaps.try_reserve(1).is_err() {
-                    return ControlFlow::Break(Stop::Full);
+                    return ControlFlow::Break(Stop::Full(found.pairs.len()));
                 }
                 found.gaps.push(Gap {
                     pair: row,

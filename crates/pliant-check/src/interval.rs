@@ -186,8 +186,9 @@ impl ImpactTaker {
             ElementPair::VertexTriangle(_) => vertices.try_reserve(1).is_ok(),
             ElementPair::EdgeEdge(_) => edges.try_reserve(1).is_ok(),
         };
-        if !has_room || vertices.len() + edges.len() >= self.most {
-            return ControlFlow::Break(Stop::Full);
+        let listed = vertices.len() + edges.len();
+        if !has_room || listed >= self.most {
+            return ControlFlow::Break(Stop::Full(listed));
         }
         match pair {
             ElementPair::VertexTriangle(pair) => vertices.push(Impact { pair, low, high }),

@@ -10,10 +10,10 @@ use pliant_io::{Body as Source, Positions};
 /// Most point triangles at one place; more have over two thousand million pairs.
 const MOST: usize = 1 << 16;
 
-/// Refuses the current frame of a source if more than [`MOST`] triangles are the same point.
+/// Refuses the current frame, `frame`, of a source if more than [`MOST`] triangles are one point.
 ///
 /// O(t) for t triangles, and O(p log p) for p point triangles.
-pub(crate) fn check(source: &Source) -> Result<(), Error> {
+pub(crate) fn check(source: &Source, frame: usize) -> Result<(), Error> {
     let (triangles, positions) = (source.triangles(), source.positions());
     let place = |vertex: u32| bits(positions, vertex);
     let is_point = |&number: &u32| {
@@ -32,6 +32,7 @@ pub(crate) fn check(source: &Source) -> Result<(), Error> {
             let [x, y, z] = place_of(&together[0]).map(f64::from_bits);
             Err(Error::OnePoint {
                 source_name: source.name().to_owned(),
+                frame,
                 count: together.len(),
                 x,
                 y,

@@ -189,22 +189,21 @@ impl fmt::Display for Parted {
         let [a, b] = seams.vertices;
         let [x, y, z] = seams.positions[0];
         let vertices = match seams.count {
-            1 => "1 vertex that a seam joins".to_owned(),
-            count => format!("{count} vertices that seams join"),
+            1 => "1 vertex parts".to_owned(),
+            count => format!("{count} vertices part"),
         };
-        write!(f, "{vertices} in the first frame ")?;
-        match (frames, seams.count) {
-            (1, 1) => write!(f, "is apart in frame {first}")?,
-            (1, _) => write!(f, "are apart in frame {first}")?,
+        write!(f, "seams that are closed in the first frame are open in ")?;
+        match frames {
+            1 => write!(f, "frame {first}: {vertices} there")?,
             _ => write!(
                 f,
-                "are apart in frame {worst}, as some are in {frames} frames, {first} to {last}"
+                "{frames} frames, {first} to {last}, and widest in frame {worst}: {vertices} there"
             )?,
         }
         write!(
             f,
-            ": {a} and {b}, at ({x:?}, {y:?}, {z:?}), are {:.1e} of its size from each other; the \
-             seam is open there",
+            ", {a} and {b} at ({x:?}, {y:?}, {z:?}) farthest, by {:.1e} of the body's size; the \
+             sides of an open seam may intersect",
             seams.farthest
         )
     }

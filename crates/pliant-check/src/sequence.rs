@@ -151,9 +151,11 @@ impl Sequence {
                 source.skip(frame - self.next);
             }
             if source.next_frame()?.is_none() {
-                let source_name = source.name().to_owned();
-                let frame = if stands { 0 } else { frame };
-                return Err(Error::Missing { source_name, frame });
+                return Err(Error::Missing {
+                    source_name: source.name().to_owned(),
+                    frame: if stands { 0 } else { frame },
+                    frames: source.frame_count(),
+                });
             }
         }
         self.next = frame + 1;
@@ -172,7 +174,7 @@ impl Sequence {
             let frame = if stands { 0 } else { frame };
             let mesh = source.mesh_number();
             if mesh != FIRST && (makes || mesh != self.meshes[number]) {
-                one_point::check(source)?;
+                one_point::check(source, frame)?;
             }
             self.meshes[number] = mesh;
             let keeps_mesh = !makes && is_mesh_of(&self.world, self.ids[number], source);
@@ -203,7 +205,11 @@ fn not_taken(why: NotTaken, source: &Source, frame: usize) -> Error {
             error,
         },
         // Cannot happen: a world is of double precision if any source is.
-        NotTaken::WouldBeRounded => Error::Missing { source_name, frame },
+        NotTaken::WouldBeRounded => Error::Missing {
+            source_name,
+            frame,
+            frames: source.frame_count(),
+        },
     }
 }
 

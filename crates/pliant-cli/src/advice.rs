@@ -79,37 +79,46 @@ fn checking(error: &CheckError) -> Option<&'static str> {
         CheckError::FrameCounts { .. } => {
             Some("export the same frames of each, or one frame of what stands still")
         }
-        CheckError::Missing { .. } => Some("wait until it is written, then check again"),
+        CheckError::Missing { .. } => {
+            Some("wait until it is written to its end, or export it again")
+        }
         CheckError::NoSuchFrame { .. } | CheckError::NoSuchName { .. } => {
             Some("choose one of these")
         }
-        CheckError::BadBaseline { .. } => {
-            Some("name a file that `pliant check --format json` wrote of these bodies")
+        CheckError::BadBaseline { .. } => Some(
+            "name a file that `pliant check --format json` wrote of these bodies, \
+                 without `--count` and `--first`",
+        ),
+        CheckError::PiecesChanged { by_name: true, .. } => {
+            Some("name the whole file, without the # and what follows it")
         }
         CheckError::PiecesChanged { .. } => Some("check it as a whole, without `--split`"),
         CheckError::NoGroups { .. } => {
             Some("split it into its connected pieces with `--split components`")
         }
-        CheckError::PiecesOfGroup { .. } => {
-            Some("split the whole file, or write the group to one of its own with `pliant convert`")
-        }
-        CheckError::NamedTwice { .. } => Some("name it once"),
+        CheckError::PiecesOfGroup { .. } => Some(
+            "name the whole file, or write the group to a file of its own \
+                 with `pliant convert` and split that",
+        ),
+        CheckError::NamedTwice { .. } => Some("leave out one of the two"),
         CheckError::NoClip => Some("leave out `--clip`"),
         CheckError::WithinItself => Some(
-            "name a second body, or make the pieces of this one bodies with `--split`, \
-             and leave out `--self`",
+            "name two bodies or more, or make bodies of the pieces of one with `--split`; \
+             leave out `--self`",
         ),
-        CheckError::SweptOneFrame => Some("name a sequence of frames, or leave out `--swept`"),
+        CheckError::SweptOneFrame { .. } => {
+            Some("name a sequence, choose more of it with `--frames`, or leave out `--swept`")
+        }
         CheckError::SweptWithin => Some("leave out `--within` or `--swept`, and check twice"),
         CheckError::SweptBaseline => Some("leave out `--baseline` or `--swept`, and check twice"),
         CheckError::EmptyGroup { .. } => Some("write NAME=BODY,BODY"),
         CheckError::Endless { .. } | CheckError::EndlessImpacts { .. } => {
-            Some("ask for less with `--first`, or mend the mesh")
+            Some("mend the mesh if surfaces lie on each other, or ask for less with `--first`")
         }
-        CheckError::OnePoint { .. } => Some("mend it, or export it without them"),
+        CheckError::OnePoint { .. } => Some("remove them, and export it again"),
         CheckError::TooManyPairs { .. } | CheckError::TooManyImpacts { .. } => Some(
-            "allow more with `--max-memory`, or ask for less with `--count` or `--first`, \
-             which keep no list without `--crossing`",
+            "allow more with `--max-memory`, or keep no list: \
+             use `--count` or `--first`, without `--crossing`",
         ),
         _ => None,
     }

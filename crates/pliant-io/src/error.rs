@@ -127,9 +127,13 @@ pub enum Reason {
     NoBody { name: String, names: String },
     #[error("has no clip \"{}\"; it has: {names}", shown(name))]
     NoClip { name: String, names: String },
-    #[error("{fps} frames a second cannot be evaluated; a rate must be finite and above 0")]
+    #[error(
+        "{} frames a second cannot be evaluated; a rate must be finite and above 0", plain(*fps)
+    )]
     BadRate { fps: f64 },
-    #[error("its clip lasts {seconds:e} s, more than {most} frames at {fps} a second")]
+    #[error(
+        "its clip lasts {} s, more than {most} frames at {} a second", plain(*seconds), plain(*fps)
+    )]
     ClipTooLong { seconds: f64, most: u32, fps: f64 },
     #[error("has {frames} frames; the mesh beside positions must have one")]
     MeshMoves { frames: usize },
@@ -174,7 +178,9 @@ pub enum Reason {
     Precision { than: PathBuf },
     #[error("too many boundary edges are too close to each other to be joined at this tolerance")]
     SeamsTooDense,
-    #[error("a tolerance of {tolerance} is not possible; it must be 0, or from 1e-15 to 0.1")]
+    #[error(
+        "a tolerance of {} is not possible; it must be 0, or from 1e-15 to 0.1", plain(*tolerance)
+    )]
     BadTolerance { tolerance: f64 },
     #[error("changed while it was being read; wait until it is written, or copy it first")]
     Changed,
@@ -209,6 +215,14 @@ pub(crate) fn listed<N: AsRef<str>>(names: impl Iterator<Item = N> + Clone) -> S
 /// The range of valid vertex numbers, as the end of a message.
 ///
 /// Where the number of vertices is not known yet, `last` is the largest that a vertex can have.
+/// A number as people write it: 30, 59.94, 1e300.
+fn plain(number: f64) -> String {
+    match number.abs() {
+        0.0 | 1e-4..1e9 => number.to_string(),
+        _ => format!("{number:e}"),
+    }
+}
+
 fn numbering(first: i64, last: i64) -> String {
     if last < first {
         "there are no vertices yet".to_owned()

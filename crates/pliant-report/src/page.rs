@@ -10,6 +10,7 @@ use crate::colours::{BODIES, HIT, NEAR, of_line};
 use crate::escape::escape;
 use crate::frames::{Elements, Frame, Motion};
 use crate::pack::{Normalisation, STEPS};
+use crate::recorder::BUDGET;
 use crate::report::{Play, Report};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -92,10 +93,11 @@ const NO_SCRIPT: &str = "This report needs JavaScript, which your browser does n
 fn thinned(motion: &Motion, along: &str) -> Option<String> {
     let (shown, all) = (motion.shown().count(), motion.numbers.len());
     if motion.too_large {
-        Some(
-            "The bodies are too large to be drawn in a page; what was found is complete."
-                .to_owned(),
-        )
+        let [_, _, triangles] = motion.sizes;
+        Some(format!(
+            "The bodies have {triangles} triangles, too many to be drawn in a page; \
+             all figures are complete."
+        ))
     } else if shown < all {
         let last = motion.numbers.last().copied();
         let those = [
@@ -116,8 +118,9 @@ fn thinned(motion: &Motion, along: &str) -> Option<String> {
             [some @ .., last] => format!("; {} and {last} are among them", some.join(", ")),
         };
         Some(format!(
-            "The picture shows {shown} of {all} {along}s, to keep the page small{there}. \
-             Figures are of all {along}s."
+            "The picture shows {shown} of {all} {along}s, since a page has room for {} MiB of \
+             them{there}. All figures are of all {along}s.",
+            BUDGET >> 20
         ))
     } else {
         None

@@ -16,7 +16,7 @@ use std::sync::{Arc, Weak};
 ///
 /// A coordinate is rounded to two bytes, and a pair takes eight. In memory a frame takes twice as
 /// much.
-const BUDGET: usize = 30 << 20;
+pub(crate) const BUDGET: usize = 30 << 20;
 
 /// Most pairs of a frame that are kept as pairs; of more, only the triangles are kept. Bounds the
 /// page.
@@ -705,6 +705,11 @@ mod tests {
             (motion.first_contact(), motion.sizes()),
             (Some(1), [1, 3, 1])
         );
+        let mut report = Report::new("large");
+        report.add(Play::new("large", "frame"), motion);
+        let note = "The bodies have 1 triangles, too many to be drawn in a page; all figures are \
+            complete.";
+        assert!(report.page().contains(note));
         assert!(!record(20 + 4 * 18, &[0, 1, 0]).too_large);
     }
 
@@ -857,8 +862,8 @@ mod tests {
         }
         let mut report = Report::new("tear");
         report.add(Play::new("tear", "step"), motion);
-        let note = "The picture shows 16 of 50 steps, to keep the page small; the first contact, \
-            the step with the most pairs and the last are among them.";
+        let note = "The picture shows 16 of 50 steps, since a page has room for 30 MiB of them; \
+            the first contact, the step with the most pairs and the last are among them.";
         assert!(report.page().contains(note));
         // Meshes of which no four would fit are counted and not drawn, without any other note.
         let motion = record(&mut world, 8000, 80);
@@ -871,7 +876,7 @@ mod tests {
         let mut report = Report::new("tear");
         report.add(Play::new("tear", "step"), motion);
         let page = report.page();
-        assert!(page.contains("; the first contact is among them. Figures are of all steps."));
+        assert!(page.contains("; the first contact is among them. All figures are of all steps."));
     }
 
     #[test]

@@ -38,8 +38,10 @@ impl fmt::Display for SceneError {
             Self::UnknownName { asked } => {
                 write!(
                     f,
-                    "there is no scene `{asked}`; there are {}",
-                    limits::NAMES.join(", ")
+                    "no scene of this kind is called `{asked}`; scenes whose meshes stay are {}; \
+                     scenes whose meshes change are {}",
+                    limits::NAMES.join(", "),
+                    limits::CHANGING_NAMES.join(", ")
                 )
             }
             Self::ImpossibleSize {
@@ -66,7 +68,7 @@ impl fmt::Display for SceneError {
             Self::ImpossibleBodyCount { asked } => {
                 write!(
                     f,
-                    "{asked} bodies cannot gather; 1 to {} can",
+                    "scene `gather` cannot have {asked} bodies; choose from 1 to {}",
                     limits::MAX_BODIES
                 )
             }

@@ -215,7 +215,7 @@ fn frames_that_there_are_not_are_refused() {
     };
     assert_eq!(
         refused(&baseline),
-        "the baseline is frame 6, but the frames of these files are 0 to 5"
+        "the baseline is frame 6, but these files have frames 0 to 5"
     );
     for (start, step, count) in [(6, 1, 1), (0, 1, 7), (1, 5, 2), (1, usize::MAX, 3)] {
         let frames = Some(Frames { start, step, count });
@@ -223,7 +223,7 @@ fn frames_that_there_are_not_are_refused() {
             frames,
             ..Settings::default()
         });
-        assert!(line.contains("are 0 to 5"), "{line}");
+        assert!(line.contains("have frames 0 to 5"), "{line}");
     }
     let nothing = counts(&[], &Settings::default()).unwrap_err();
     assert!(matches!(nothing, Error::NoSources), "{nothing}");
@@ -293,18 +293,13 @@ fn names_of_nobody_are_refused_with_those_that_there_are() {
             &[("g", group), ("g", group)],
             &[],
             false,
-            "there is a group of this name",
+            "a group of this name is there already",
         ),
-        (&[("2", group)], &[], false, "name or number of a body"),
-        (&[("7", group)], &[], false, "name or number of a body"),
-        (
-            &[(&arguments[2], group)],
-            &[],
-            false,
-            "name or number of a body",
-        ),
-        (&[("", group)], &[], false, "needs a name"),
-        (&[("g", &[])], &[], false, "no bodies are named"),
+        (&[("2", group)], &[], false, "the body of that number"),
+        (&[("7", group)], &[], false, "the body of that number"),
+        (&[(&arguments[2], group)], &[], false, "a body is called so"),
+        (&[("", group)], &[], false, "name is empty"),
+        (&[("g", &[])], &[], false, "the group \"g\" has no bodies"),
     ] {
         let refused = counts(&arguments, &with_names(groups, ignore, split)).unwrap_err();
         let line = refused.to_string();
@@ -338,9 +333,15 @@ fn after_an_error_nothing_follows() {
             assert_eq!(check.next_frame().unwrap().unwrap().count, count);
         }
         let refused = check.next_frame().unwrap_err();
-        assert!(refused.to_string().contains("b2.obj"), "{refused}");
+        let refused = refused.to_string();
+        assert!(refused.contains("b2.obj"), "{refused}");
         for _ in 0..2 {
-            assert!(matches!(check.next_frame(), Err(Error::AfterError)));
+            let after = check.next_frame().unwrap_err();
+            let frame = counts.len();
+            assert_eq!(
+                after.to_string(),
+                format!("the check ended at frame {frame}, and nothing follows: {refused}")
+            );
         }
     }
 }

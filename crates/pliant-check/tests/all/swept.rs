@@ -345,7 +345,10 @@ fn lists_have_a_limit() {
         check.next_frame().unwrap();
         let found = check.next_interval();
         if found.is_err() {
-            assert!(matches!(check.next_frame(), Err(Error::AfterError)));
+            assert!(matches!(
+                check.next_frame(),
+                Err(Error::AfterError { frame: 1, .. })
+            ));
         }
         found.map(|it| it.unwrap().count)
     };
@@ -363,8 +366,8 @@ fn lists_have_a_limit() {
     ));
     assert_eq!(
         error.to_string(),
-        "from frame 0 to 1: more than 2 pairs of elements meet, and their list needs more memory \
-         than is allowed"
+        "from frame 0 to frame 1: more than 2 pairs of elements meet, the most that a list holds \
+         in the memory that is allowed"
     );
 }
 
@@ -376,7 +379,7 @@ fn what_has_no_way_is_refused() {
         |bodies: &[&str], settings: &Settings| open(folder.path(), bodies, settings).err().unwrap();
     assert!(matches!(
         refused(&["floor.obj"], &swept()),
-        Error::SweptOneFrame
+        Error::SweptOneFrame { count: 1 }
     ));
     let one = Frames {
         start: 1,
@@ -387,7 +390,20 @@ fn what_has_no_way_is_refused() {
         frames: Some(one),
         ..swept()
     };
-    assert!(matches!(refused(&bodies, &settings), Error::SweptOneFrame));
+    assert!(matches!(
+        refused(&bodies, &settings),
+        Error::SweptOneFrame { count: 1 }
+    ));
+    let none = Frames { count: 0, ..one };
+    let settings = Settings {
+        frames: Some(none),
+        ..swept()
+    };
+    assert_eq!(
+        refused(&bodies, &settings).to_string(),
+        "what meets on the way from frame to frame needs at least two frames, and none is to be \
+         checked"
+    );
     let settings = Settings {
         within: Some(1.0),
         ..swept()

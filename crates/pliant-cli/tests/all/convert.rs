@@ -148,7 +148,7 @@ fn gltf_is_evaluated_and_not_written() {
     );
     refused(
         &["check", "s.npz", "--clip", "bend"],
-        &["no body has an animation", "--clip"],
+        &["none of the files has one", "--clip"],
     );
     refused(
         &["convert", "s.npz", "t.npz", "--clip", "bend"],

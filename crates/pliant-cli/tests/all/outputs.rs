@@ -181,6 +181,7 @@ fn on_a_full_disk(folder: &Path, command: &[&str]) -> Option<crate::common::Said
     assert_eq!(said.code, ignored.code);
     for said in [&said, &ignored] {
         assert!(said.err.contains("File too large"), "{}", said.err);
+        assert!(!said.err.contains(".pliant-"), "{}", said.err);
     }
     Some(said)
 }

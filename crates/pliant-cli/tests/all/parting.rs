@@ -113,11 +113,13 @@ fn one_line_says_how_many_where_and_when() {
     let said = check(folder.path(), &["s_*.obj", "--count"]);
     assert!(said.code == 1, "{}", said.err);
     for words in [
-        "note: s_*.obj: 5 vertices that seams join in the first frame are apart in frame 1: ",
+        "note: s_*.obj: seams that are closed in the first frame are open in frame 1: 5 vertices \
+         part there, ",
         " and 1",
-        ", at (1.0, ",
-        ", 0.0), are 1.9e-8 of its size from each other",
-        "the seam is open there; `--weld 1e-6` keeps together what parts by rounding",
+        " at (1.0, ",
+        ", 0.0) farthest, by 1.9e-8 of the body's size; ",
+        "the sides of an open seam may intersect; `--weld 1e-6` keeps together what parts by \
+         rounding",
     ] {
         let is_said = said.err.lines().any(|line| line.contains(words));
         assert!(is_said, "{words}: {}", said.err);
@@ -131,13 +133,13 @@ fn one_line_says_how_many_where_and_when() {
     let folder = sequence(0.125);
     let said = check(folder.path(), &["s_*.obj", "--count", "--weld", "1e-6"]);
     assert!(
-        note(&said).ends_with("the seam is open there"),
+        note(&said).ends_with("the sides of an open seam may intersect"),
         "{}",
         said.err
     );
     // Nothing is noted where seams are to stay open.
     let said = check(folder.path(), &["s_*.obj", "--count", "--no-weld"]);
-    assert!(!said.err.contains("seams join"), "{}", said.err);
+    assert!(!said.err.contains("seams"), "{}", said.err);
 }
 
 /// Files `stack_*.stl`: two closed cubes that touch along a face in the first frame, then part.
@@ -189,8 +191,8 @@ fn solids_that_touch_may_go_apart() {
     let folder = stacks(&[0.0, 0.5, 1.0]);
     let said = check(folder.path(), &["stack_*.stl"]);
     assert_eq!(said.code, 0, "{}", said.err);
-    let words = "4 vertices that seams join in the first frame are apart in frame 2, as some are \
-                 in 2 frames, 1 to 2: ";
+    let words = "seams that are closed in the first frame are open in 2 frames, 1 to 2, and widest \
+                 in frame 2: 4 vertices part there, ";
     assert!(note(&said).contains(words), "{}", said.err);
     // Pieces and groups of the first frame stay, and are no reason to stop.
     for (split, bodies) in [("components", 1), ("groups", 2)] {

@@ -147,7 +147,7 @@ fn every_error_says_what_to_do_next() {
         ("check s_*.obj t_*.obj", "export the same frames"),
         (
             "check a.obj --baseline 3",
-            "frames of these files are 0 to 0",
+            "the baseline is frame 3, but these files have one frame, 0; choose",
         ),
         ("check a.obj --ignore c,d", "bodies: 0 = \"a.obj\""),
         (
@@ -195,7 +195,7 @@ fn every_error_says_what_to_do_next() {
         ),
         (
             "check a.obj --group x=",
-            "no bodies are named for the group \"x\"; write NAME=BODY,BODY\n",
+            "the group \"x\" has no bodies; write NAME=BODY,BODY\n",
         ),
         ("check a.obj --group =a.obj", "write NAME=BODY,BODY"),
         (
@@ -238,12 +238,13 @@ fn every_error_about_groups_says_what_to_do_next() {
         ),
         (
             "check groups.obj#arm --split components",
-            "split the whole file, or write the group to one of its own with `pliant convert`\n",
+            "name the whole file, or write the group to a file of its own with `pliant convert` \
+             and split that\n",
         ),
         (
             "check groups.obj#arm groups.obj#arm/hand",
-            "groups.obj: \"arm/hand\" is named twice, as \"arm\" and as \"arm/hand\"; name it \
-             once\n",
+            "the group \"arm/hand\" of groups.obj is named by two arguments, \"groups.obj#arm\" \
+             and \"groups.obj#arm/hand\"; leave out one of the two\n",
         ),
         ("check s_*.obj#b", "leave out what begins with the #"),
         ("check no.obj#b", "from the current folder"),
@@ -296,7 +297,7 @@ fn every_error_of_a_format_or_a_conversion_says_what_to_do_next() {
         ),
         (
             "check moves.gltf --fps 1e300",
-            "its clip lasts 1e0 s, more than 16777216 frames at 1000",
+            "its clip lasts 1 s, more than 16777216 frames at 1e300 a second; ask",
         ),
         (
             "check moves.gltf --fps 1e300",

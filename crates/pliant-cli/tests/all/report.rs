@@ -509,8 +509,9 @@ fn of_meshes_that_change_frames_of_all_the_way_are_shown() {
     let widest = places.windows(2).map(|two| two[1] - two[0]).max();
     assert!(widest <= Some(16), "{places:?}");
     let note = format!(
-        "The picture shows {} of 250 steps, to keep the page small; the first contact, the step \
-         with the most pairs and the last are among them. Figures are of all steps.",
+        "The picture shows {} of 250 steps, since a page has room for 30 MiB of them; the first \
+         contact, the step with the most pairs and the last are among them. All figures are of all \
+         steps.",
         places.len()
     );
     assert_eq!(head["plays"][0]["notes"], json!([note]));

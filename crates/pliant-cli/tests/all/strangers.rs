@@ -620,8 +620,8 @@ fn what_would_take_hours_is_refused_with_its_reason() {
         let said = measured(path, &arguments).said;
         if is_refused {
             said.assert_refused(&[
-                "point.stl: 200000 triangles are one point, (0e0, 0e0, 0e0), where each meets \
-                 every other; mend it",
+                "point.stl, frame 0: 200000 triangles have no size and lie at one point, (0.0, \
+                 0.0, 0.0); each would be a pair with every other; remove them",
             ]);
         } else {
             assert_eq!((said.code, said.err.as_str()), (1, ""));

@@ -111,7 +111,7 @@ fn joined_sides_that_part_in_a_later_frame_are_apart_there() {
     let said = check(path, &["p_*.obj", "--weld", "1e-6"]);
     let alone = check(path, &["p_2.obj", "--weld", "1e-6"]);
     assert_eq!(said.code, alone.code, "{}", said.err);
-    let words = "vertices that seams join in the first frame are apart in frame 2";
+    let words = "seams that are closed in the first frame are open in frame 2: ";
     assert!(said.err.contains(words), "{}", said.err);
 }
 
@@ -286,30 +286,41 @@ fn an_earlier_check_is_a_baseline() {
 
     let baseline = |name: &str| check(path, &["n.obj", "wall.obj", "--baseline", name]);
     save("count.json", &["n.obj", "wall.obj", "--count"]);
-    baseline("count.json").assert_refused(&["count.json", "does not list all pairs"]);
+    baseline("count.json").assert_refused(&[
+        "count.json: in its frame 0 it counts 1 pairs and lists 0; write it again with all of them",
+        "without `--count` and `--first`",
+    ]);
     baseline("nowhere.json").assert_refused(&["nowhere.json"]);
     baseline("wall.obj").assert_refused(&["wall.obj", "JSON"]);
     save("other.json", &["n_0.obj", "wall.obj"]);
-    baseline("other.json").assert_refused(&["no body is called \"n_0.obj\""]);
+    baseline("other.json").assert_refused(&[
+        "its body 0, \"n_0.obj\", is not checked here: no body is called \"n_0.obj\"; bodies: ",
+    ]);
     let fewer = fs::read_to_string(path.join("old.json")).unwrap();
     fs::write(
         path.join("fewer.json"),
         fewer.replace("\"triangles\":2", "\"triangles\":3"),
     )
     .unwrap();
-    baseline("fewer.json").assert_refused(&["\"n.obj\" has 3 triangles there, and 2 here"]);
+    baseline("fewer.json")
+        .assert_refused(&["its body 0, \"n.obj\", has 3 triangles there and 2 here"]);
     fs::write(
         path.join("lies.json"),
         fewer.replace("[0,0,1,0]", "[0,7,1,0]"),
     )
     .unwrap();
-    baseline("lies.json").assert_refused(&["triangle that is not there"]);
+    baseline("lies.json").assert_refused(&[
+        "frame 0, pair 0, [0, 7, 1, 0]: body 0, \"n.obj\", has no triangle 7; it has 2, the first \
+         is 0",
+    ]);
     fs::write(
         path.join("lies.json"),
         fewer.replace("[0,0,1,0]", "[4,0,1,0]"),
     )
     .unwrap();
-    baseline("lies.json").assert_refused(&["triangle that is not there"]);
+    baseline("lies.json").assert_refused(&[
+        "frame 0, pair 0, [4, 0, 1, 0]: there is no body 4; its bodies are 0 to 1",
+    ]);
 }
 
 #[test]
@@ -590,9 +601,16 @@ fn a_mesh_may_change_from_file_to_file() {
     // Pairs of changing meshes are no baseline, and pieces belong to one mesh.
     fs::write(path.join("before.json"), json.to_string()).unwrap();
     let refused = check(path, &["f*.obj", "--baseline", "before.json"]);
-    refused.assert_refused(&["before.json", "a mesh changes in it"]);
+    refused.assert_refused(&[
+        "before.json",
+        "in its frame 2 a mesh is another than before",
+    ]);
     let refused = check(path, &["f*.obj", "--split", "components", "-q"]);
-    refused.assert_refused(&["frame 2", "another mesh", "without `--split`"]);
+    refused.assert_refused(&[
+        "frame 2",
+        "the mesh is another than in the first frame",
+        "without `--split`",
+    ]);
     // A file format of one mesh cannot hold several.
     let refused = pliant(path, &["convert", "f*.obj", "all.npz"]);
     refused.assert_refused(&["f2.obj", "vertices", "export all of them from one mesh"]);

@@ -274,8 +274,8 @@ fn what_has_no_way_or_no_form_is_refused() {
         check(folder.path(), &[arguments, &["--swept"]].concat()).assert_refused(words);
     };
     let alone = [
-        "one frame alone is checked",
-        "name a sequence of frames, or leave out `--swept`",
+        "needs at least two frames, and only one is to be checked",
+        "name a sequence, choose more of it with `--frames`, or leave out `--swept`",
     ];
     refused(&["floor.obj", "leaf_0.obj"], &alone);
     refused(&["floor.obj"], &alone);
@@ -284,14 +284,14 @@ fn what_has_no_way_or_no_form_is_refused() {
     refused(
         &with(&["--within", "0.1"]),
         &[
-            "who meets, not who comes close",
+            "on the way, only contacts are found",
             "leave out `--within` or `--swept`",
         ],
     );
     refused(
         &with(&["--baseline", "0"]),
         &[
-            "a baseline has pairs of triangles",
+            "a baseline cannot be used for what meets on the way",
             "leave out `--baseline` or `--swept`",
         ],
     );

@@ -254,7 +254,10 @@ fn names_of_nobody_are_refused() {
         &["--group", "g=0", "--ignore", "g,h"],
         &["\"h\"", "groups: \"g\""],
     );
-    refused(&["--baseline", "1"], &["baseline", "frame 1", "0 to 0"]);
+    refused(
+        &["--baseline", "1"],
+        &["baseline", "frame 1", "these files have one frame, 0"],
+    );
     refused(&["--baseline", "last"], &["the baseline last"]);
     // Unreadable lists are explained where they are parsed.
     for more in [

@@ -33,7 +33,7 @@ use crate::error::{Error, Reason};
 #[derive(Debug)]
 pub struct StagedFile {
     path: PathBuf,
-    file: BufWriter<NamedTempFile>,
+    file: BufWriter<Temporary>,
     /// Entry in the list; declared behind the file, so that it is dropped after it.
     listed: Listed,
     /// Whether a coordinate in the file was rounded.
@@ -44,6 +44,28 @@ pub struct StagedFile {
     has_failed: bool,
     /// Offset of the next byte, kept up even after a failure.
     position: u64,
+}
+
+/// A file with a temporary name, which no error names.
+///
+/// The errors of [`NamedTempFile`] itself end in that name, which nobody asked for.
+#[derive(Debug)]
+struct Temporary(NamedTempFile);
+
+impl Write for Temporary {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.as_file_mut().write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.as_file_mut().flush()
+    }
+}
+
+impl Seek for Temporary {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.0.as_file_mut().seek(to)
+    }
 }
 
 /// Paths of all files that are not complete yet.
@@ -110,22 +132,20 @@ impl StagedFile {
     pub fn create(path: &Path) -> Result<Self, Error> {
         let mut builder = tempfile::Builder::new();
         builder.prefix(".pliant-");
-        // The usual permissions of a new file; the crate tempfile would allow only the owner.
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            builder.permissions(std::fs::Permissions::from_mode(0o666));
-        }
+        // Opened here, so that it has the usual permissions of a new file, and an error is the
+        // system's alone. The crate tempfile would allow only the owner, and name the file.
+        let mut options = fs::OpenOptions::new();
+        options.read(true).write(true).create_new(true);
         // The list stays locked, so that no file ever exists without being listed.
         let mut staged = staged();
-        let file = builder.tempfile_in(folder(path));
+        let file = builder.make_in(folder(path), |path| options.open(path));
         let file = file.map_err(|error| Error::new(path, Reason::Write(error)))?;
         staged.push(file.path().to_owned());
         drop(staged);
         Ok(Self {
             path: path.to_owned(),
             listed: Listed(file.path().to_owned()),
-            file: BufWriter::with_capacity(1 << 16, file),
+            file: BufWriter::with_capacity(1 << 16, Temporary(file)),
             rounded: false,
             has_failed: false,
             position: 0,
@@ -159,7 +179,7 @@ impl StagedFile {
             return Err(Error::new(path, Reason::Write(error)));
         }
         let error = |error: io::Error| Error::new(&path, Reason::Write(error));
-        let file = file
+        let Temporary(file) = file
             .into_inner()
             .map_err(|unwritten| error(unwritten.into_error()))?;
         let renamed = if force {
@@ -182,7 +202,7 @@ impl StagedFile {
     fn unless_failed<T>(
         &mut self,
         instead: T,
-        work: impl FnOnce(&mut BufWriter<NamedTempFile>) -> io::Result<T>,
+        work: impl FnOnce(&mut BufWriter<Temporary>) -> io::Result<T>,
     ) -> io::Result<T> {
         if self.has_failed {
             return Ok(instead);

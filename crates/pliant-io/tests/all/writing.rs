@@ -420,3 +420,19 @@ fn polygons_that_are_no_fans_stay_polygons() {
     };
     assert!(Writer::create(&argument("bad.obj"), bad, WriteOptions::default()).is_err());
 }
+
+#[test]
+fn no_error_names_the_temporary_file() {
+    let folder = Folder::new();
+    let path = folder.path().join("no").join("notes.txt");
+    let error = pliant_io::StagedFile::create(&path).unwrap_err();
+    let Reason::Write(of_system) = error.reason() else {
+        panic!("{error}");
+    };
+    assert!(of_system.raw_os_error().is_some(), "{of_system}");
+    let said = error.to_string();
+    assert!(
+        said.contains("notes.txt") && !said.contains(".pliant-"),
+        "{said}"
+    );
+}

@@ -84,7 +84,10 @@ impl FromStr for View {
         let known = Self::NAMES.into_iter().find(|(known, _)| *known == name);
         known.map(|(_, view)| view).ok_or_else(|| {
             let names = Self::NAMES.map(|(known, _)| known);
-            format!("write one of {}", names.join(", "))
+            format!(
+                "there is no view {name:?}; choose one of {}",
+                names.join(", ")
+            )
         })
     }
 }

@@ -262,7 +262,10 @@ fn a_place_fills_the_picture_and_is_marked_in_an_inset() {
         Picture::of(&world, &pairs, [320, 240])
     );
     assert_eq!("left".parse(), Ok(View::Left));
-    assert!("above".parse::<View>().unwrap_err().contains("top"));
+    assert_eq!(
+        "above".parse::<View>().unwrap_err(),
+        "there is no view \"above\"; choose one of corner, front, back, left, right, top, bottom"
+    );
     // No size is too small, and no shape too strange.
     for size in [[1, 1], [17, 3], [3, 40]] {
         let empty = Picture::shot(

@@ -2,6 +2,7 @@
 
 use super::change::Event;
 use super::timeline::Timeline;
+use crate::limits;
 use crate::motion::Moment;
 use crate::scene::About;
 use std::fmt;
@@ -51,7 +52,7 @@ pub struct ChangingScene {
 
 impl ChangingScene {
     /// Names that [`new`](Self::new) knows.
-    pub const NAMES: [&'static str; 5] = ["cut", "tear", "fuse", "shuffle", "remesh"];
+    pub const NAMES: [&'static str; 5] = limits::CHANGING_NAMES;
 
     /// Seed for which the descriptions hold.
     pub const DEFAULT_SEED: u64 = crate::Scene::DEFAULT_SEED;

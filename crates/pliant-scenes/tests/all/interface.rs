@@ -149,7 +149,8 @@ fn impossible_scenes_say_what_is_possible() {
     );
     assert_eq!(
         error("sphere", 80),
-        "there is no scene `sphere`; there are spheres, crowd, arms, gather, cloth"
+        "no scene of this kind is called `sphere`; scenes whose meshes stay are spheres, crowd, \
+         arms, gather, cloth; scenes whose meshes change are cut, tear, fuse, shuffle, remesh"
     );
     for asked in [0, Scene::MAX_BODIES + 1, usize::MAX] {
         let error = Scene::gather(asked, 80, 0).unwrap_err();

@@ -142,7 +142,7 @@ pub(super) fn refit_block<I: Simd, B: BoxSource>(
     let mut fours = [[extent::nothing(i); 4]; 2];
     for half in 0..2 {
         for lane in 0..4 {
-            fours[half][lane] = source.over(i, Over::Triangle(eight[4 * half + lane]));
+            fours[half][lane] = source.over(i, Over::Triangle(&eight[4 * half + lane]));
         }
     }
     let [first, later] = fours;

@@ -202,7 +202,7 @@ impl<const N: usize> Below<N> for Merged<'_, N> {
                 }
                 Child::Leaf(leaf) if !tree.leaves.have_blocks() => {
                     let triangle = tree.leaves.first_triangle(leaf);
-                    let corners = source.shape().triangles[triangle.index()];
+                    let corners = &source.shape().triangles[triangle.index()];
                     source.over(i, Over::Triangle(corners))
                 }
                 _ => {

@@ -41,7 +41,7 @@ pub(crate) enum Over<'v> {
     /// Twelve vertices: as many as most leaves have.
     Twelve(&'v [TreeVertex; TWELVE]),
     /// Corners of a triangle.
-    Triangle([TreeVertex; 3]),
+    Triangle(&'v [TreeVertex; 3]),
 }
 
 /// Source of boxes: gives the box over any vertices of a body.
@@ -83,7 +83,7 @@ impl<S: Coordinate> BoxSource for Shape<'_, S> {
         match vertices {
             Over::Run([start, end], others) => extent::of_points(i, self, start..end, others),
             Over::Twelve(vertices) => extent::of_twelve(i, self, vertices),
-            Over::Triangle(corners) => extent::of_corners(i, self, corners),
+            Over::Triangle(&corners) => extent::of_corners(i, self, corners),
         }
     }
 
@@ -220,7 +220,7 @@ mod tests {
                 let found = extent::to_box(source.over(i, Over::Twelve(&twelve)));
                 assert_eq!(found, source.plainly(twelve.into_iter()));
                 let corners = [7, 2, 2].map(TreeVertex);
-                let found = extent::to_box(source.over(i, Over::Triangle(corners)));
+                let found = extent::to_box(source.over(i, Over::Triangle(&corners)));
                 assert_eq!(found, source.plainly(corners.into_iter()));
             });
         }

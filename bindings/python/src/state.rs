@@ -199,6 +199,27 @@ impl State {
         taken.map_err(|not_taken| of_body(body, not_taken))
     }
 
+    /// Gives bodies new shapes, all or none.
+    pub(crate) fn set_positions_of(&mut self, shapes: &[(BodyId, Positions<'_>)]) -> Result<()> {
+        match &mut self.world {
+            AnyWorld::F32(world) => {
+                let mut singles = Vec::with_capacity(shapes.len());
+                for &(body, shape) in shapes {
+                    let shape = single(shape).map_err(|not_taken| of_body(body, not_taken))?;
+                    singles.push((body, shape));
+                }
+                world.set_positions_of(&singles)?;
+            }
+            AnyWorld::F64(world) => {
+                let mut widened = vec![Vec::new(); shapes.len()];
+                let doubles = shapes.iter().zip(&mut widened);
+                let doubles = doubles.map(|(&(body, shape), wide)| (body, double(shape, wide)));
+                world.set_positions_of(&doubles.collect::<Vec<_>>())?;
+            }
+        }
+        Ok(())
+    }
+
     /// Begins a motion of a body.
     pub(crate) fn set_motion(&mut self, body: BodyId, end: Positions<'_>) -> Result<()> {
         let taken = self.world.set_motion(body, end, &mut self.widened);

@@ -394,6 +394,39 @@ impl World {
         self.with_shape(py, body, positions, State::set_positions)
     }
 
+    /// Gives several bodies new shapes at once: all of them, or none if one is refused.
+    ///
+    /// Takes a dict of positions (n, 3) by bodies, or pairs of a body and its positions, each as
+    /// set_positions takes them. All threads of the world share the work.
+    ///
+    /// Raises pliant.Error: NoSuchBody, SameBody for a body that comes twice, and the other kinds of
+    /// set_positions, of the first shape that is refused.
+    ///
+    /// Cost: O(n) in all vertices.
+    fn set_positions_of(&self, py: Python<'_>, shapes: &Any<'_>) -> Result<()> {
+        let items = match shapes.getattr_opt("items")? {
+            Some(items) => items.call0()?,
+            None => shapes.clone(),
+        };
+        let mut given = Vec::new();
+        for item in items.try_iter()? {
+            let (Body(body), positions): (Body, Any<'_>) = item?.extract()?;
+            let read = Coordinates::read(&positions);
+            given.push((body, read.map_err(|refused| refused.of_body(Some(body)))?));
+        }
+        let mut state = self.state.alone()?;
+        let mut copies = Vec::with_capacity(given.len());
+        for (body, given) in &given {
+            copies.push((*body, state.copy(*body, given)?));
+        }
+        let mut shapes = Vec::with_capacity(copies.len());
+        for (body, copied) in &copies {
+            shapes.push((*body, copied.get()?));
+        }
+        let state = &mut *state;
+        py.detach(|| state.set_positions_of(&shapes))
+    }
+
     /// Gives a body a new shape that write(positions) fills into an array.
     ///
     /// The array is (n, 3) of the world's dtype, filled with NaN: every row must be written. The

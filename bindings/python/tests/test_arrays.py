@@ -376,3 +376,28 @@ def test_groups_of_a_wrong_length_are_called_groups() -> None:
     assert (facts.kind, facts.what, facts.expected, facts.found) == ("WrongLength", "groups", 169, 168)
     with pytest.raises(pliant.Error, match="^body 0: 168 positions for 169 vertices; give one"):
         world.set_positions(body, FLAT[1:])
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_many_shapes_at_once(dtype: type) -> None:
+    """As of one body after the other; all of them, or none."""
+    world, twin = pliant.World(), pliant.World()
+    bodies = [world.add(FACES, SHAPE.astype(dtype)) for _ in range(3)]
+    for _ in bodies:
+        twin.add(FACES, SHAPE.astype(dtype))
+    shapes = {body: (SHAPE + body).astype(dtype) for body in bodies}
+    world.set_positions_of(shapes)
+    for body, shape in shapes.items():
+        twin.set_positions(body, shape)
+        np.testing.assert_array_equal(world.positions(body), twin.positions(body))
+    for wrong, body in (
+        ([(bodies[0], SHAPE), (bodies[1], SHAPE * np.nan)], bodies[1]),
+        ([(bodies[2], SHAPE), (bodies[2], SHAPE)], bodies[2]),
+        ([(bodies[0], SHAPE), (99, SHAPE)], 99),
+    ):
+        wrong = [(number, shape.astype(dtype)) for number, shape in wrong]
+        with pytest.raises(pliant.Error) as refused:
+            world.set_positions_of(wrong)
+        assert refused.value.body == body
+        for body, shape in shapes.items():
+            np.testing.assert_array_equal(world.positions(body), shape)

@@ -1,9 +1,9 @@
 //! Many cores: what a step gains from more threads, measured and predicted.
 //!
-//! Jobs of a step are recorded on one thread, cut as for many, and replayed on any number of workers:
-//! each job goes to the worker that is free first, and a part ends with its last job. A part that
-//! several workers share costs what a wait was measured to cost. So two cores can say what sixteen
-//! would gain, as far as memory and caches keep up.
+//! Idea: jobs of a step are recorded on one thread, cut as for many, and replayed on any number of
+//! workers. Each job goes to the worker that is free first (greedy list scheduling, Graham 1969). A
+//! part that several workers share costs what a wait was measured to cost. So two cores say what
+//! sixteen would gain, as far as memory and caches keep up.
 
 use pliant::{BodyId, Options, RecordedPart, Selection, World};
 use pliant_scenes::Scene;
@@ -42,7 +42,7 @@ pub enum Question {
     Intersections,
     /// Vertices near triangles and edges near edges.
     Candidates,
-    /// The same, within that distance, measured.
+    /// Close pairs within the margin, measured.
     Close,
     /// Triangles that intersect, and how.
     Contacts,
@@ -70,7 +70,7 @@ pub const QUESTIONS: [Question; 7] = [
 pub struct Measured {
     /// Scene and size.
     pub scene: String,
-    /// What was asked.
+    /// Question that was asked.
     pub question: Question,
     /// Milliseconds a step on one thread: the median of its rounds.
     pub one_thread_ms: f64,
@@ -154,7 +154,7 @@ pub fn measure(is_small: bool, rounds: usize, show: &mut dyn FnMut(&Measured)) -
     all
 }
 
-/// Nanoseconds that a part takes so many workers.
+/// Nanoseconds that a part takes a number of workers.
 fn replay(part: &RecordedPart, workers: usize, wait: f64) -> f64 {
     let workers = workers.min(part.most_threads).max(1);
     let mut ends = vec![0; workers];
@@ -211,7 +211,7 @@ impl Played {
         self.shapes.len() - 1
     }
 
-    /// Milliseconds a step with so many threads: the median over rounds.
+    /// Milliseconds a step with a number of threads: the median over rounds.
     fn time(&self, question: Question, threads: usize, rounds: usize) -> f64 {
         let (mut world, bodies) = self.built(world_of(threads));
         self.play(&mut world, &bodies, question);

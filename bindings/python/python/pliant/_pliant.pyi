@@ -3,7 +3,7 @@
 help(pliant.World) has all of it: shapes, dtypes, errors, cost.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
 from typing import (
     Any,
@@ -153,6 +153,11 @@ class World:
         """Numbers of all bodies, a list of int in the order in which they were added."""
     def set_positions(self, body: SupportsIndex, positions: _Array) -> None:
         """Gives a body a new shape: positions (n, 3), a row for each vertex."""
+    def set_positions_of(
+        self,
+        shapes: Mapping[SupportsIndex, _Array] | Iterable[tuple[SupportsIndex, _Array]],
+    ) -> None:
+        """Gives several bodies new shapes at once: all of them, or none if one is refused."""
     def write_positions(self, body: SupportsIndex, write: Callable[[NDArray[Any]], object]) -> None:
         """Gives a body a new shape that write(positions) fills into an array."""
     def set_motion(self, body: SupportsIndex, end: _Array) -> None:

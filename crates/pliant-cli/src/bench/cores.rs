@@ -28,7 +28,7 @@ struct Record<'a> {
     measured: &'a [Measured],
 }
 
-/// What was asked for.
+/// Options of the command that concern it.
 pub(super) struct Asked<'a> {
     pub(super) file: Option<&'a Path>,
     pub(super) rounds: usize,

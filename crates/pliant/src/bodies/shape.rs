@@ -146,8 +146,10 @@ impl<S: Coordinate> BodyShape<S> {
         self.bounds
     }
 
-    /// Checks a new shape, and copies it aside if it is going to be copied. The shape must not leave
-    /// the loose box, if there is one. Nothing that can be seen changes. O(n).
+    /// Checks a new shape, and copies it aside if it is going to be copied.
+    ///
+    /// The shape must not leave the loose box, if there is one. Nothing that can be seen changes.
+    /// O(n).
     pub(crate) fn check(
         &mut self,
         new: &NewShape<S>,

@@ -196,7 +196,7 @@ impl<S: Scalar> World<S> {
         self.state_mut().common.threads = Threads::recorded(threads, clock);
     }
 
-    /// Has all threads share so many parts without work, for benchmarks that time waits.
+    /// Has all threads share `parts` pieces without work, for benchmarks that time waits.
     #[doc(hidden)]
     pub fn wait_for_threads(&mut self, parts: u32) {
         self.state_mut().wait_for_threads(parts);

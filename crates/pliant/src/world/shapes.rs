@@ -55,8 +55,9 @@ impl<S: Scalar> World<S> {
         self.verbs.set_positions(body, positions)
     }
 
-    /// Moves several bodies at once: [`set_positions`](Self::set_positions) of each, on all threads, all
-    /// or none. Shapes (n, 3) each, in any order of bodies.
+    /// Gives several bodies new shapes at once, shape (n, 3) each: all of them or none.
+    ///
+    /// As [`set_positions`](Self::set_positions) of each, in any order, shared by all threads.
     ///
     /// ```
     /// # use pliant::{ErrorKind, World};
@@ -71,7 +72,7 @@ impl<S: Scalar> World<S> {
     /// # Ok::<(), pliant::Error>(())
     /// ```
     ///
-    /// Cost: O(vertices), shared by the threads there are.
+    /// Cost: O(n) in all vertices.
     ///
     /// # Errors
     ///

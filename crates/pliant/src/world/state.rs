@@ -97,7 +97,7 @@ impl<S: Coordinate> State<S> {
         self.mend(id)
     }
 
-    /// Has all threads share so many parts without work.
+    /// Has all threads share `parts` pieces without work.
     pub(super) fn wait_for_threads(&mut self, parts: u32) {
         let interrupt = Interrupt::default();
         let executor = self.common.executor(&interrupt);

@@ -39,4 +39,5 @@ mod readme;
 mod refusals;
 mod second_kind;
 mod threads;
+mod words;
 mod work;

@@ -5,6 +5,8 @@ use pliant::{Degree, Options, Pair, Partition, Selection, Statistics, Update, Wo
 use pliant_scenes::Scene;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Pairs in the order that a visitor saw: of bodies with each other, and of one with itself.
 type Visited = (Vec<Pair>, Vec<[u32; 2]>);
@@ -150,5 +152,111 @@ fn many_bodies_at_once_are_as_one_after_the_other() {
                 );
             }
         }
+    }
+}
+
+/// Jobs and the threads that share them, of a step of a scene, as a record has them: no clock.
+fn shared_parts(scene: &Scene, step: u32) -> Vec<(usize, usize)> {
+    let mut world = World::<f32>::new();
+    let ticks = AtomicU64::new(0);
+    let clock = Arc::new(move || ticks.fetch_add(1, Ordering::Relaxed));
+    world.record_jobs(NonZeroUsize::new(16).unwrap(), clock);
+    let mut shape = Vec::new();
+    let mut bodies = Vec::new();
+    for body in 0..scene.body_count() {
+        scene.positions(body, step, &mut shape);
+        bodies.push(world.add(scene.triangles(body), &shape).unwrap());
+    }
+    // The first query says how much there is to do.
+    for shift in [0, 1] {
+        for (body, &id) in bodies.iter().enumerate() {
+            scene.positions(body, step + shift, &mut shape);
+            world.set_positions(id, &shape).unwrap();
+        }
+        world.take_record();
+        world.intersections(Selection::Everything).all().unwrap();
+    }
+    let parts = world.take_record().into_iter();
+    let shared = parts.filter(|part| part.most_threads > 1);
+    shared
+        .map(|part| (part.jobs.len(), part.most_threads))
+        .collect()
+}
+
+#[test]
+fn a_query_takes_as_many_threads_as_its_work_pays() {
+    let parts = |name, triangles, step| {
+        let scene = Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).unwrap();
+        shared_parts(&scene, step)
+    };
+    // Some microseconds of work: nobody is woken.
+    assert_eq!(parts("spheres", 20, 190), []);
+    // From a hundredth of a second on all are.
+    for (name, triangles, step) in [("spheres", 20_480, 190), ("cloth", 20_000, 40)] {
+        let parts = parts(name, triangles, step);
+        let most = parts.iter().map(|&(_, threads)| threads).max();
+        assert!(most >= Some(8), "{name}: {parts:?}");
+        // Nobody is woken for less than a job.
+        assert!(
+            parts.iter().all(|&(jobs, threads)| threads <= jobs),
+            "{name}: {parts:?}"
+        );
+    }
+}
+
+#[test]
+fn many_shapes_at_once_are_as_one_after_the_other() {
+    let scene = Scene::new("crowd", Some(320), Scene::DEFAULT_SEED).unwrap();
+    let shape = |body, step| {
+        let mut shape = Vec::new();
+        scene.positions(body, step, &mut shape);
+        shape
+    };
+    for threads in [1, 3] {
+        let mut options = Options::default();
+        options.threads = NonZeroUsize::new(threads).unwrap();
+        let mut worlds = [0, 1].map(|_| World::<f32>::with_options(options));
+        let mut bodies = Vec::new();
+        for body in 0..scene.body_count() {
+            let [a, b] = worlds
+                .each_mut()
+                .map(|world| world.add(scene.triangles(body), &shape(body, 1)).unwrap());
+            assert_eq!(a, b);
+            bodies.push(a);
+        }
+        let mut found = Vec::new();
+        for step in [60, 100, 140] {
+            let shapes: Vec<_> = (0..bodies.len()).map(|body| shape(body, step)).collect();
+            let [at_once, one_by_one] = &mut worlds;
+            let listed = bodies.iter().zip(&shapes);
+            let mut listed: Vec<_> = listed.map(|(&id, shape)| (id, &shape[..])).collect();
+            // In any order.
+            listed.reverse();
+            at_once.set_positions_of(&listed).unwrap();
+            for (id, shape) in &listed {
+                one_by_one.set_positions(*id, shape).unwrap();
+            }
+            let answers = worlds.each_mut().map(|world| {
+                let found = world.intersections(Selection::Everything).all();
+                found.unwrap().to_vec()
+            });
+            assert_eq!(answers[0], answers[1]);
+            found = answers[0].clone();
+
+            // All or none, and the error is of the first that is refused.
+            let world = &mut worlds[0];
+            let broken = vec![[f32::NAN; 3]; shapes[0].len()];
+            for wrong in [
+                [(bodies[3], &shapes[2][..]), (bodies[0], &broken)],
+                [(bodies[0], &shapes[1][..]), (bodies[0], &shapes[1])],
+                [(bodies[2], &shapes[1][..]), (bodies[0], &shapes[1][1..])],
+            ] {
+                let error = world.set_positions_of(&wrong).unwrap_err();
+                assert_eq!(error.body, Some(bodies[0]), "{error}");
+            }
+            let again = world.intersections(Selection::Everything).all();
+            assert_eq!(again.unwrap(), found);
+        }
+        assert!(!found.is_empty());
     }
 }

@@ -399,8 +399,8 @@ impl World {
     /// Takes a dict of positions (n, 3) by bodies, or pairs of a body and its positions, each as
     /// set_positions takes them. All threads of the world share the work.
     ///
-    /// Raises pliant.Error: NoSuchBody, SameBody for a body that comes twice, and the other kinds of
-    /// set_positions, of the first shape that is refused.
+    /// Raises pliant.Error: NoSuchBody, SameBody for a body that comes twice, and the other kinds
+    /// of set_positions, of the first shape that is refused.
     ///
     /// Cost: O(n) in all vertices.
     fn set_positions_of(&self, py: Python<'_>, shapes: &Any<'_>) -> Result<()> {

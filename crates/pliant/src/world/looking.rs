@@ -189,8 +189,9 @@ impl<S: Scalar> World<S> {
         &self.state().common.statistics
     }
 
-    /// Records jobs from now on: work is cut as for `threads`, done by the calling thread alone, and
-    /// timed by `clock`, in nanoseconds. For benchmarks that replay them on more workers.
+    /// Records jobs from now on, for benchmarks that replay them on more workers.
+    ///
+    /// Work is cut as for `threads`, done by the calling thread alone, and timed by `clock`.
     #[doc(hidden)]
     pub fn record_jobs(&mut self, threads: NonZeroUsize, clock: Clock) {
         self.state_mut().common.threads = Threads::recorded(threads, clock);

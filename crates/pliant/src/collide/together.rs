@@ -172,6 +172,8 @@ impl Together {
             }
         }
         for sets in [&mut self.stale, &mut self.reached] {
+            // An interrupted query leaves them as they are.
+            sets.iter().for_each(|set| locked(set).clear());
             sets.resize_with(sets.len().max(trees.len()), Mutex::default);
         }
         let (partners, helpers) = (&self.partners, &mut self.helpers);

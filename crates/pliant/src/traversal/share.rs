@@ -41,6 +41,17 @@ pub(crate) struct Share {
 }
 
 impl Share {
+    /// Forgets everything: an interrupted query leaves shares as they are.
+    pub(super) fn clear(&mut self) {
+        for items in [&mut self.todo, &mut self.waiting, &mut self.leaves] {
+            items.clear();
+        }
+        for sets in [&mut self.stale, &mut self.reached] {
+            sets.iter_mut().for_each(DirtySet::clear);
+        }
+        self.looked_at.clear();
+    }
+
     /// Moves the sets that a walk has noted for two trees to the sets of these trees.
     pub(super) fn note(sets: &mut Vec<DirtySet>, noted: &mut [DirtySet; 2], trees: [u32; 2]) {
         for (tree, noted) in trees.into_iter().zip(noted) {

@@ -98,6 +98,7 @@ impl Task {
         self.walk.clear();
         self.cursor = Cursor::default();
         self.run = 0..0;
+        self.share.clear();
     }
 
     /// Whether no pair of nodes is left.

@@ -98,6 +98,10 @@ pub fn wait_ms() -> f64 {
 }
 
 /// Measures all scenes and questions, or small ones. `show` is given each as it is known.
+///
+/// # Panics
+///
+/// Never: scenes and their shapes are fixed, and worlds take them.
 pub fn measure(is_small: bool, rounds: usize, show: &mut dyn FnMut(&Measured)) -> Vec<Measured> {
     let wait = wait_ms();
     let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);

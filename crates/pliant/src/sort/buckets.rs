@@ -271,7 +271,7 @@ impl<T: Send, F: Fn(u64) -> T + Copy + Sync> Job<'_, F> {
         }
         let mut runs = cut(&parts, made, &mut scratch[..runs]);
         executor.run(&mut runs, nanoseconds, |_, run| {
-            self.put_run_in_order(&parts, run)
+            self.put_run_in_order(&parts, run);
         });
     }
 

@@ -76,7 +76,7 @@ impl Helpers {
             })
             .collect();
         self.help(shares.len() - 1, &|own| {
-            do_all(&shares, own % shares.len(), work)
+            do_all(&shares, own % shares.len(), work);
         });
     }
 

@@ -3,6 +3,7 @@
 //! Holds what a program can hold of the rules in CONTRIBUTING. The rest is for readers.
 //! Comments are read by lines, not parsed; text in code blocks and headings is skipped.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -218,7 +219,7 @@ fn prose_keeps_its_rules() {
         let is_root = path.ends_with("src/lib.rs") || path.ends_with("src/main.rs");
         let name = path.strip_prefix(&workspace).unwrap_or(&path).display();
         for (line, fault) in faults(&text, is_root) {
-            said += &format!("{name}:{line}: {fault}\n");
+            writeln!(said, "{name}:{line}: {fault}").unwrap();
         }
     }
     assert!(said.is_empty(), "{} faults\n{said}", said.lines().count());

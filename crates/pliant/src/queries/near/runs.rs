@@ -153,7 +153,7 @@ impl<const C: usize> RunBoxes<C> {
         };
         self.most = 0.0;
         executor.run_each(jobs, Grain::RUNS, make, |job| {
-            self.most = larger(self.most, job.most)
+            self.most = larger(self.most, job.most);
         });
         if executor.is_interrupted() {
             return false;

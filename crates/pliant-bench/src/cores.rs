@@ -1,9 +1,9 @@
 //! Many cores: what a step gains from more threads, measured and predicted.
 //!
-//! Idea: jobs of a step are recorded on one thread, cut as for many, and replayed on any number of
-//! workers. Each job goes to the worker that is free first (greedy list scheduling, Graham 1969). A
-//! part that several workers share costs what a wait was measured to cost. So two cores say what
-//! sixteen would gain, as far as memory and caches keep up.
+//! Idea: jobs of a step are recorded on one thread, split as they would be for many threads, and
+//! replayed on any number of workers. Each job goes to the worker that is free first (greedy list
+//! scheduling, Graham 1969). Each time workers wait for each other, the measured cost of a wait is
+//! added. So one core predicts the gain on sixteen, as far as memory and caches keep up.
 
 use pliant::{BodyId, Options, RecordedPart, Selection, World};
 use pliant_scenes::Scene;

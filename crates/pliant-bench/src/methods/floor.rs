@@ -1,9 +1,9 @@
 //! Lower bound on the time of any method: one pass over the vertices, and the true pairs decided
 //! and sorted.
 //!
-//! Another method plays the first round for it, and tells it the answers. From then on, a step is
-//! one pass over all vertices that finds the smallest and largest coordinates, as wide as the
-//! machine reads. If asked for, it also decides the intersecting pairs by the frozen test, in
+//! In the first round another method computes the pairs, which are kept for this one. From then on,
+//! a step is one pass over all vertices that finds the smallest and largest coordinates, with the
+//! widest registers of the machine. If asked for, it also decides the intersecting pairs by the frozen test, in
 //! random order, and sorts them.
 
 use crate::decision::exact;

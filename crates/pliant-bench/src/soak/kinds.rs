@@ -1,4 +1,4 @@
-//! Every kind of query that the library's registry lists, asked alike.
+//! Every kind of query that the library's registry lists, called through one interface.
 
 use pliant::{Error, Query, Scalar, Selection, World};
 use std::fmt::{self, Debug, Write};

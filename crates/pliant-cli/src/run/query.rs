@@ -1,4 +1,4 @@
-//! Queries of `pliant run`.
+//! The query that `pliant run` asks at each step, and how its answers are counted.
 
 use clap::ValueEnum;
 

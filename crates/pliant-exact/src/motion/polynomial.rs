@@ -1,7 +1,7 @@
 //! Polynomials in the time t whose coefficients are integers, and their signs at fractions.
 //!
-//! A polynomial is only ever asked for signs, so it may be multiplied by what is positive:
-//! remainders are, and so stay integers.
+//! Only signs are asked for, so a polynomial may be scaled by any positive factor. Remainders are
+//! scaled that way, so that their coefficients stay integers.
 
 use super::super::integer::Integer;
 use super::super::ring::Ring;

@@ -165,13 +165,16 @@ fn ask<K: Kind>(
     let mut answer = Answer::new(kind, tasks, sink);
     common.scratch.begin(wants_all);
     let meet: Meet<K::Scalar> = &mut |step, bodies, pairs| {
-        if !together.is_worth_it(step.refit.executor, bodies, pairs) {
-            step.refit.executor = step.refit.executor.alone();
+        let executor = step.refit.executor;
+        if !together.is_worth_it(executor, bodies, pairs) {
+            step.refit.executor = executor.alone();
         } else if wants_all {
             return together.meet(step, bodies, pairs, &mut answer);
         }
         let mut pairs = pairs.iter();
-        pairs.try_for_each(|&pair| step.meet(bodies, pair, &mut answer))
+        let met = pairs.try_for_each(|&pair| step.meet(bodies, pair, &mut answer));
+        step.refit.executor = executor;
+        met
     };
     let done = common.for_each_batch(kind.needs(), request, interrupt, false, meet);
     together.note_work(&common.statistics);

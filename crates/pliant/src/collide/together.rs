@@ -44,8 +44,12 @@ pub(crate) struct Together {
     /// Partners of each body, by its place; none if the body takes no part.
     partners: Vec<Option<Partner>>,
     helpers: PerThread<Helper>,
-    /// Estimated time of the last query on one thread, in nanoseconds; none before the first query.
-    work: Option<u64>,
+    /// Triangles of all pairs of bodies of the query so far.
+    triangles: usize,
+    /// Estimated time of the last query a triangle, in 1,024ths of a nanosecond.
+    rate: Option<u64>,
+    /// Estimated time of the present pairs on one thread, in nanoseconds.
+    work: u64,
 }
 
 /// Two trees, or one twice.
@@ -75,10 +79,10 @@ struct Helper {
 type EachBody<'e, S> = &'e (dyn Fn(&mut Step, usize, &mut Body<S>) -> ControlFlow<()> + Sync);
 
 impl Together {
-    /// Whether pairs of bodies are worth several threads, judged by the last query, or else by
-    /// triangles.
+    /// Whether pairs of bodies are worth several threads, judged by their triangles and by what these
+    /// took in the last query.
     pub(crate) fn is_worth_it<S: Coordinate>(
-        &self,
+        &mut self,
         executor: Executor,
         bodies: &Bodies<S>,
         pairs: &[BodyPair],
@@ -86,22 +90,25 @@ impl Together {
         if !executor.are_many() {
             return false;
         }
-        let triangles = || {
-            let places = pairs.as_flattened().iter();
-            let counts = places.map(|&place| bodies.at(place).triangle_count());
-            Grain::TRIANGLES.time(counts.sum())
-        };
-        executor.pays(self.work.unwrap_or_else(triangles))
+        let places = pairs.as_flattened().iter();
+        let counts = places.map(|&place| bodies.at(place).triangle_count());
+        let triangles: usize = counts.sum();
+        self.triangles += triangles;
+        let a_triangle = Grain::TRIANGLES.time(1);
+        let rate = self.rate.unwrap_or(1024 * a_triangle);
+        self.work = (triangles as u64).saturating_mul(rate) / 1024;
+        executor.pays(self.work)
     }
 
-    /// Estimates the time of the query from its counters, in nanoseconds, for the next query.
+    /// Estimates the time of the query from its counters, for the next query.
     pub(crate) fn note_work(&mut self, statistics: &Statistics) {
         let boxes = statistics.boxes_bottom_up + statistics.boxes_top_down;
         let work = 12 * statistics.node_pairs
             + 10 * (boxes + statistics.triangle_boxes)
             + 40 * statistics.candidate_pairs
             + 20 * statistics.pairs;
-        self.work = Some(work);
+        let triangles = std::mem::take(&mut self.triangles) as u64;
+        self.rate = (1024 * work).checked_div(triangles).or(self.rate);
     }
 
     /// Processes all pairs of bodies. Breaks if it is interrupted, or there are too many hits.
@@ -118,7 +125,7 @@ impl Together {
         let count = step.refit.executor.count();
         tasks.begin(count);
         tasks.use_all(count);
-        let work = self.work.unwrap_or(u64::MAX) / 2;
+        let work = self.work;
         while !self.items.nodes.is_empty() {
             std::mem::swap(&mut self.items.nodes, &mut self.items.now);
             self.round(step, bodies, tasks, work)?;

@@ -1,7 +1,7 @@
-//! Vectors of three components, which are numbers or registers of them.
+//! Three-component vectors; a component is one number, or a SIMD register of numbers.
 //!
-//! Sums go from the first component to the last, and nothing is fused: the bounds on rounding rely
-//! on that.
+//! Sums go from the first component to the last, and no multiply-add is fused: the bounds on
+//! rounding rely on that.
 
 use crate::geometry::Real;
 use std::ops::{Add, Mul, Sub};

@@ -1,4 +1,4 @@
-//! Connected components of a mesh over shared vertices, by union-find.
+//! Connected components of a mesh over shared vertices, by union-find (disjoint sets).
 
 use super::topology::EMPTY;
 

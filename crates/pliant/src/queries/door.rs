@@ -1,8 +1,8 @@
-//! The trait of a kind of query, and the door through which the traversal sees it.
+//! `Kind`, the trait that every kind of query implements, and the interface that the traversal calls.
 //!
-//! A kind says what it [`Needs`] of bodies, decides a [`Batch`] of leaves at a time, and translates
-//! hits to the caller's numbers. The traversal knows no kind: it has the needs, and for every task
-//! a `dyn` [`LeafWork`]. So it is compiled once for `f32` and once for `f64`, whatever kinds there
+//! A kind says what it [`Needs`] of bodies, decides a [`Batch`] of pairs of leaves at a time, and
+//! translates hits to the caller's numbers. The traversal knows no kind: it gets the `Needs` and,
+//! for every task, a `dyn` [`LeafWork`]. So it is compiled once for `f32` and once for `f64`, whatever kinds there
 //! are.
 
 use super::near::{NearElements, Which};

@@ -12,10 +12,16 @@ use super::record::Recorder;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+/// Looks at what others do before a worker without work gives up on workers that have not begun:
+/// some tens of microseconds.
+const PATIENCE: u32 = 130;
+
 /// Pool of work that was given and not yet taken, shared by a fixed number of workers.
 pub(crate) struct Exchange<'q, T> {
     given: Mutex<Vec<T>>,
-    /// Number of workers that have work.
+    /// Number of workers that have not begun yet.
+    unbegun: AtomicUsize,
+    /// Number of workers that have begun, and have work.
     busy: AtomicUsize,
     /// Number of workers that wait for work.
     idle: AtomicUsize,
@@ -24,14 +30,21 @@ pub(crate) struct Exchange<'q, T> {
 }
 
 impl<'q, T> Exchange<'q, T> {
-    /// Exchange for `workers` workers, each of which has work of its own at first.
+    /// Exchange for `workers` workers, each of which [begins](Self::begin) with work of its own.
     pub(crate) fn new(executor: Executor<'q>, workers: usize) -> Self {
         Self {
             recorder: executor.threads.recorder.as_ref(),
             given: Mutex::default(),
-            busy: AtomicUsize::new(workers),
+            unbegun: AtomicUsize::new(workers),
+            busy: AtomicUsize::new(0),
             idle: AtomicUsize::new(0),
         }
+    }
+
+    /// A worker begins.
+    pub(crate) fn begin(&self) {
+        self.busy.fetch_add(1, Ordering::AcqRel);
+        self.unbegun.fetch_sub(1, Ordering::AcqRel);
     }
 
     /// Whether another worker waits for work.
@@ -54,15 +67,18 @@ impl<'q, T> Exchange<'q, T> {
     }
 
     /// Takes some of the given work for a worker that has none left. Waits for it while others are
-    /// busy, but not long. Returns whether there is any; if not, the worker has to end.
+    /// busy, but not long, and less for those that have not begun: a lent pool may be busy with other
+    /// things. Returns whether there is any; if not, the worker has to end.
     pub(crate) fn take(&self, into: &mut Vec<T>) -> bool {
-        let mut backoff = Backoff::default();
+        let (mut backoff, mut looks) = (Backoff::default(), 0);
         self.idle.fetch_add(1, Ordering::Relaxed);
         // A giver is busy until it has given. So no work comes after the last has stopped being
         // busy.
         self.busy.fetch_sub(1, Ordering::AcqRel);
         let is_any = loop {
-            let is_last = self.busy.load(Ordering::Acquire) == 0;
+            looks += 1;
+            let are_others = self.busy.load(Ordering::Acquire) > 0
+                || looks < PATIENCE && self.unbegun.load(Ordering::Acquire) > 0;
             {
                 let mut given = locked(&self.given);
                 if !given.is_empty() {
@@ -73,7 +89,7 @@ impl<'q, T> Exchange<'q, T> {
                     break true;
                 }
             }
-            if is_last || self.recorder.is_some() || !backoff.waits() {
+            if !are_others || self.recorder.is_some() || !backoff.waits() {
                 break false;
             }
         };
@@ -99,6 +115,7 @@ mod tests {
             let mut workers = vec![(Vec::new(), 0_u64); count];
             workers[0].0.push(14_u32);
             executor.run(&mut workers, u64::MAX, |_, (stack, done)| {
+                exchange.begin();
                 while !stack.is_empty() || exchange.take(stack) {
                     while let Some(number) = stack.pop() {
                         *done += 1;

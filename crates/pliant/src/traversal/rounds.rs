@@ -51,6 +51,7 @@ impl Task {
     /// Runs this task's share of a round, and items that others give it meanwhile.
     pub(crate) fn round<S: Coordinate>(&mut self, round: &Round<S>, work: &mut dyn LeafWork<S>) {
         work.clear();
+        round.exchange.begin();
         while !self.share.todo.is_empty() || round.exchange.take(&mut self.share.todo) {
             let todo = &mut self.share.todo;
             if todo.len() > 1 && round.exchange.is_wanted() {

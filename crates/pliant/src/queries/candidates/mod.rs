@@ -1,5 +1,5 @@
-//! Candidates within a margin: pairs of elements whose boxes are near each other, now or during a
-//! motion.
+//! Candidate search: pairs of elements whose boxes are within a margin, now or during a motion.
+//! Contact solvers such as IPC call it their broad phase.
 //!
 //! Elements are a vertex and a triangle, or two edges. A margin r round each finds pairs within 2 r
 //! of each other (Li et al. 2020, Incremental Potential Contact). The tree has a set of boxes that

@@ -1,9 +1,10 @@
-//! Earliest contact of a motion: every task compares its finds with it at once, and none is listed.
+//! Earliest contact of a motion, shared by all tasks of a search.
 //!
+//! Each contact found is compared with it immediately, and not stored.//!
 //! It is the least in one order: by exact time, then vertices and triangles before edges, then by
 //! the caller's numbers. So it does not depend on the order in which contacts come. Its time bounds
-//! the search, and may become smaller at any moment. Contacts that are surely later are left out;
-//! so are contacts that are surely not earlier and come later in the order.
+//! the search, and may become smaller at any moment. A contact is skipped if it is surely later,
+//! or if it is surely not earlier and loses the tie-break.
 
 use super::hit::Impact;
 use pliant_exact::motion::{Certain, Contact, Decided, Grid, Moving, first_contact, quick};

@@ -1,4 +1,4 @@
-//! Boxes of all elements of a body, made for a kind of element when a query first needs it.
+//! Boxes of a body's vertices, edges and triangles, each made when a query first needs them.
 
 use super::groups::Groups;
 use super::removed::Removed;

@@ -1,8 +1,9 @@
 //! Connectivity of a body: polygons as triangle fans, recorded once and compared in later frames.
 //!
 //! A fan goes round the polygon's first corner: a b c d e gives (a b c) (a c d) (a d e). The
-//! triangles of a polygon follow each other in the list, which is enough to rebuild it. Once all positions of the first frame are known, polygons whose fan would be wrong
-//! get other triangles; their corners are then kept.
+//! triangles of a polygon follow each other in the list, which is enough to rebuild it. Once all
+//! positions of the first frame are known, polygons whose fan would be wrong get other triangles;
+//! their corners are then kept.
 
 use std::collections::BTreeMap;
 

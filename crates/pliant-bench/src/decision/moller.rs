@@ -4,8 +4,8 @@
 //! 1997. In the division-free form of his published program, in f32 and with its tolerance.
 //!
 //! 1. Signed distances n . q + d of one triangle's corners from the plane of the other. Magnitudes
-//!    below [`TOLERANCE`] count as zero. All on one side: no intersection. The same follows with the
-//!    triangles exchanged.
+//!    below [`TOLERANCE`] count as zero. All on one side: no intersection.
+//!    The same follows with the triangles exchanged.
 //! 2. The line of the two planes has the direction of the product of the normals. Each triangle
 //!    cuts an interval out of it, computed from corners and distances. It is measured on the
 //!    coordinate in which the direction is largest. Ends are fractions; multiplying both intervals

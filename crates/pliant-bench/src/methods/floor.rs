@@ -3,8 +3,8 @@
 //!
 //! In the first round another method computes the pairs, which are kept for this one. From then on,
 //! a step is one pass over all vertices that finds the smallest and largest coordinates, with the
-//! widest registers of the machine. If asked for, it also decides the intersecting pairs by the frozen test, in
-//! random order, and sorts them.
+//! widest registers of the machine. If asked for, it also decides the intersecting pairs by the
+//! frozen test, in random order, and sorts them.
 
 use crate::decision::exact;
 use crate::method::{Counters, Method, Pair};

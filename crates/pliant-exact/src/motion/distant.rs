@@ -1,4 +1,5 @@
-//! Conservative advancement: how long two moving elements surely stay further apart than a distance.
+//! Conservative advancement: how long two moving elements surely stay further apart than a
+//! distance.
 //!
 //! For any direction n the projections of the polygon's corners (see `motion`) are affine in t. As
 //! long as all are above d |n|, every point of it is further from the origin than d. From a time up

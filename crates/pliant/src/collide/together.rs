@@ -79,8 +79,8 @@ struct Helper {
 type EachBody<'e, S> = &'e (dyn Fn(&mut Step, usize, &mut Body<S>) -> ControlFlow<()> + Sync);
 
 impl Together {
-    /// Whether pairs of bodies are worth several threads, judged by their triangles and by what these
-    /// took in the last query.
+    /// Whether pairs of bodies are worth several threads, judged by their triangles and by what
+    /// these took in the last query.
     pub(crate) fn is_worth_it<S: Coordinate>(
         &mut self,
         executor: Executor,

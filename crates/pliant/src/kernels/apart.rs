@@ -1,4 +1,5 @@
-//! Separating axis test over time (separating directions): which of eight pairs of moving elements stay apart during a motion.
+//! Separating axis test over time (separating directions): which of eight pairs of moving elements
+//! stay apart during a motion.
 //!
 //! Corners move on straight lines, so on a fixed direction n the difference q(t) of two corners has
 //! a projection affine in t. An element is the hull of its corners. So if all projections are above

@@ -1,9 +1,9 @@
-//! `Kind`, the trait that every kind of query implements, and the interface that the traversal calls.
+//! `Kind`, the trait of every kind of query, and the interface that the traversal calls.
 //!
 //! A kind says what it [`Needs`] of bodies, decides a [`Batch`] of pairs of leaves at a time, and
 //! translates hits to the caller's numbers. The traversal knows no kind: it gets the `Needs` and,
-//! for every task, a `dyn` [`LeafWork`]. So it is compiled once for `f32` and once for `f64`, whatever kinds there
-//! are.
+//! for every task, a `dyn` [`LeafWork`]. So it is compiled once for `f32` and once for `f64`,
+//! whatever kinds there are.
 
 use super::near::{NearElements, Which};
 use crate::geometry::{Aabb, Points, Shape};

@@ -67,8 +67,8 @@ impl<'q, T> Exchange<'q, T> {
     }
 
     /// Takes some of the given work for a worker that has none left. Waits for it while others are
-    /// busy, but not long, and less for those that have not begun: a lent pool may be busy with other
-    /// things. Returns whether there is any; if not, the worker has to end.
+    /// busy, but not long. It waits less for those that have not begun: a lent pool may have other
+    /// work. Returns whether there is any; if not, the worker has to end.
     pub(crate) fn take(&self, into: &mut Vec<T>) -> bool {
         let (mut backoff, mut looks) = (Backoff::default(), 0);
         self.idle.fetch_add(1, Ordering::Relaxed);

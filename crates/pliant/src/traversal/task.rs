@@ -1,7 +1,8 @@
 //! Task of a descent: some pairs of nodes, and everything found below them.
 //!
 //! A task goes on alone, depth first, on its own stack and lists, as long as the boxes it needs are
-//! valid. At a stale box it stops until that box is refitted. Its `LeafWork`, made by the kind of query, processes leaves that overlap.
+//! valid. At a stale box it stops until that box is refitted. Its `LeafWork`, made by the kind of
+//! query, processes leaves that overlap.
 
 use super::context::Context;
 use super::leaf_pairs::{Cursor, LeafTests};

@@ -1,4 +1,5 @@
-//! Inspection: meshes and shapes of bodies, the structure and boxes of their trees, and the work of the last query.
+//! Inspection: meshes and shapes of bodies, the structure and boxes of their trees, and the work of
+//! the last query.
 
 use super::handle::World;
 use super::scalar::Scalar;

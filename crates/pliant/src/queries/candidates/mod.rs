@@ -1,12 +1,11 @@
-//! Candidate search: pairs of elements whose boxes are within a margin, now or during a motion.
-//! Contact solvers such as IPC call it their broad phase.
+//! Candidate search, the broad phase of contact solvers: pairs of elements whose boxes are near.
 //!
-//! Elements are a vertex and a triangle, or two edges. A margin r round each finds pairs within 2 r
-//! of each other (Li et al. 2020, Incremental Potential Contact). The tree has a set of boxes that
-//! hold positions and ends of motions, grown by r. Every vertex and edge belongs to one triangle
-//! (`mesh::Elements`), so a pair comes up in one pair of leaves, adjacent leaves included. `near`
-//! has the boxes of the elements of leaves, `kernels::gaps` compares eight at a time, and few are
-//! left to exact arithmetic.
+//! Elements are a vertex and a triangle, or two edges, now or during a motion. A margin r round
+//! each finds pairs within 2 r of each other (Li et al. 2020, Incremental Potential Contact). The
+//! tree has a set of boxes that hold positions and ends of motions, grown by r. Every vertex and
+//! edge belongs to one triangle (`mesh::Elements`), so a pair comes up in one pair of leaves,
+//! adjacent leaves included. `near` has the boxes of the elements of leaves, `kernels::gaps`
+//! compares eight at a time, and few are left to exact arithmetic.
 
 mod edge_edge;
 mod hit;

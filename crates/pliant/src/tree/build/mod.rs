@@ -1,4 +1,5 @@
-//! Build of the bounding volume hierarchy: partition of a body's triangles into nodes, without boxes.
+//! Build of the bounding volume hierarchy: partition of a body's triangles into nodes, without
+//! boxes.
 //!
 //! One loop, breadth first, without a stack, however deep the tree: see [`Planner`]. One hook: a
 //! [`Split`] reorders the triangles of a node and says where to cut. If it cannot tell the

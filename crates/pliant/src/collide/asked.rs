@@ -162,6 +162,7 @@ fn ask<K: Kind>(
 ) -> Result<(), Error> {
     common.begin(request)?;
     let wants_all = sink.collector().is_some();
+    together.begin();
     let mut answer = Answer::new(kind, tasks, sink);
     common.scratch.begin(wants_all);
     let meet: Meet<K::Scalar> = &mut |step, bodies, pairs| {
@@ -177,7 +178,9 @@ fn ask<K: Kind>(
         met
     };
     let done = common.for_each_batch(kind.needs(), request, interrupt, false, meet);
-    together.note_work(&common.statistics);
+    if wants_all && done.is_ok() {
+        together.note_work(&common.statistics);
+    }
     done
 }
 

@@ -17,15 +17,16 @@ use crate::queries::Needs;
 use crate::statistics::Statistics;
 use crate::threads::{Exchange, Executor, Grain, PerThread, locked};
 use crate::traversal::{
-    Item, PairOf, Piece, Round, Scratch, Tasks, TreePair, View, leaves_left_out,
+    Item, PairOf, Piece, Round, Scratch, Tasks, TreePair, View, Word, leaves_left_out,
 };
 use crate::update::{DirtySet, Partner, Refit};
 use std::iter;
 use std::ops::ControlFlow;
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 
-/// Pairs of leaves from which they are tested before the descent goes on: bounds memory.
-const MOST_LEAVES: usize = 1 << 20;
+/// Pairs of leaves that are tested before tasks go on. A task stops at twice as many, which bounds
+/// memory.
+const MANY_LEAVES: usize = 1 << 15;
 /// Leaves in a run that is tested with its neighbours: the least piece that threads share.
 const RUN: usize = 64;
 
@@ -79,6 +80,11 @@ struct Helper {
 type EachBody<'e, S> = &'e (dyn Fn(&mut Step, usize, &mut Body<S>) -> ControlFlow<()> + Sync);
 
 impl Together {
+    /// A query begins.
+    pub(crate) fn begin(&mut self) {
+        self.triangles = 0;
+    }
+
     /// Whether pairs of bodies are worth several threads, judged by their triangles and by what
     /// these took in the last query.
     pub(crate) fn is_worth_it<S: Coordinate>(
@@ -125,13 +131,14 @@ impl Together {
         let count = step.refit.executor.count();
         tasks.begin(count);
         tasks.use_all(count);
-        let work = self.work;
+        let mut work = self.work;
         while !self.items.nodes.is_empty() {
             std::mem::swap(&mut self.items.nodes, &mut self.items.now);
             self.round(step, bodies, tasks, work)?;
+            work = Grain::NODE_PAIRS.time(self.items.nodes.len());
             self.refit_stale(step, bodies)?;
             let leaves = self.items.leaves.len();
-            if self.items.nodes.is_empty() || leaves >= MOST_LEAVES {
+            if self.items.nodes.is_empty() || leaves >= MANY_LEAVES {
                 self.refit_leaves(step, bodies)?;
                 std::mem::swap(&mut self.items.leaves, &mut self.items.now);
                 self.round(step, bodies, tasks, Grain::LEAF_PAIRS.time(leaves))?;
@@ -172,16 +179,22 @@ impl Together {
         trees.clear();
         let (mut triangles, mut count) = (0, 0);
         for (place, body) in bodies.all().enumerate() {
+            // All bodies, so that trees keep their numbers, and sets their lengths.
+            trees.extend((0..body.part_count()).map(|part| (Place(place as u32), part)));
             if partners.get(place).copied().flatten().is_some() {
                 triangles += body.triangle_count();
                 count += 1;
-                trees.extend((0..body.part_count()).map(|part| (Place(place as u32), part)));
             }
         }
         for sets in [&mut self.stale, &mut self.reached] {
             // An interrupted query leaves them as they are.
             sets.iter().for_each(|set| locked(set).clear());
             sets.resize_with(sets.len().max(trees.len()), Mutex::default);
+        }
+        for helper in self.helpers.iter_mut() {
+            // A caller's question that panicked leaves them as they are.
+            helper.scratch.begin(true);
+            helper.statistics = Statistics::default();
         }
         let (partners, helpers) = (&self.partners, &mut self.helpers);
         let partner = |place: usize| partners.get(place).copied().flatten();
@@ -317,9 +330,11 @@ impl Together {
                 (&mut self.stale, &mut share.stale),
                 (&mut self.reached, &mut share.reached),
             ];
-            for (all, sets) in both {
-                for (all, set) in all.iter_mut().zip(sets) {
-                    locked(all).take(set);
+            for (sets, words) in both {
+                for Word { tree, number, bits } in words.drain(..) {
+                    let set = sets[tree as usize].get_mut();
+                    let set = set.unwrap_or_else(PoisonError::into_inner);
+                    set.insert_bits(number as usize, bits);
                 }
             }
             for (pair, looked_at) in share.looked_at.drain(..) {
@@ -465,10 +480,12 @@ fn each_body<S: Coordinate>(
         let helping = &*helpers;
         let mut jobs: Vec<_> = bodies.all_mut().enumerate().collect();
         executor.run(&mut jobs, nanoseconds, |_, (place, body)| {
+            // Not locked while the job is done: a lent pool may have threads of one number.
+            let mut own = std::mem::take(&mut *helping.own());
             let Helper {
                 scratch,
                 statistics,
-            } = &mut *helping.own();
+            } = &mut own;
             let executor = executor.alone();
             let mut step = Step {
                 needs,
@@ -478,6 +495,9 @@ fn each_body<S: Coordinate>(
                 statistics,
             };
             let _ = do_one(&mut step, *place, body);
+            let kept = &mut *helping.own();
+            kept.statistics += own.statistics;
+            kept.scratch = own.scratch;
         });
         for helper in helpers.iter_mut() {
             *step.statistics += std::mem::take(&mut helper.statistics);

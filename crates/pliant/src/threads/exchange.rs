@@ -33,7 +33,7 @@ impl<'q, T> Exchange<'q, T> {
     /// Exchange for `workers` workers, each of which [begins](Self::begin) with work of its own.
     pub(crate) fn new(executor: Executor<'q>, workers: usize) -> Self {
         Self {
-            recorder: executor.threads.recorder.as_ref(),
+            recorder: executor.threads.recorder.as_ref().filter(|_| workers > 1),
             given: Mutex::default(),
             unbegun: AtomicUsize::new(workers),
             busy: AtomicUsize::new(0),
@@ -77,9 +77,7 @@ impl<'q, T> Exchange<'q, T> {
         self.busy.fetch_sub(1, Ordering::AcqRel);
         let is_any = loop {
             looks += 1;
-            let are_others = self.busy.load(Ordering::Acquire) > 0
-                || looks < PATIENCE && self.unbegun.load(Ordering::Acquire) > 0;
-            {
+            let are_others = {
                 let mut given = locked(&self.given);
                 if !given.is_empty() {
                     let idle = self.idle.load(Ordering::Relaxed);
@@ -88,7 +86,10 @@ impl<'q, T> Exchange<'q, T> {
                     self.busy.fetch_add(1, Ordering::AcqRel);
                     break true;
                 }
-            }
+                // Under the lock: whoever takes is busy before it lets go.
+                self.busy.load(Ordering::Acquire) > 0
+                    || looks < PATIENCE && self.unbegun.load(Ordering::Acquire) > 0
+            };
             if !are_others || self.recorder.is_some() || !backoff.waits() {
                 break false;
             }

@@ -36,6 +36,8 @@ impl Grain {
 
     /// Triangles of bodies that a query prepares, or that meet, if nothing more is known.
     pub(crate) const TRIANGLES: Self = Self::of(1_024, 10_000);
+    /// Pairs of nodes that waited for boxes, with all that they become.
+    pub(crate) const NODE_PAIRS: Self = Self::of(64, 64_000);
     /// Pairs of leaves that are tested.
     pub(crate) const LEAF_PAIRS: Self = Self::of(64, 20_000);
 

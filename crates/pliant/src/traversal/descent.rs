@@ -61,6 +61,7 @@ pub(crate) struct Scratch {
 impl Scratch {
     /// Begins a query, which wants all hits or not: sets the sizes of its first batches.
     pub(crate) fn begin(&mut self, wants_all: bool) {
+        self.reached.iter_mut().for_each(DirtySet::clear);
         self.sizes = if wants_all {
             Sizes::LARGEST
         } else {

@@ -17,6 +17,11 @@ use crate::tree::{BoxSet, LeafPair, NodePair};
 
 /// Most items of one pair of trees that a task takes at once; the rest can be given to others.
 const AT_ONCE: usize = 512;
+/// Runs of leaves that a task takes at once.
+const RUNS_AT_ONCE: usize = 4;
+/// Pairs of leaves on the list of a task at which it stops, so that they are tested: they bound
+/// memory.
+const MOST_LEAVES: usize = 1 << 16;
 /// Limits after which a task looks at its hits, and at whether another task waits for work.
 const LIMITS: TaskLimits = TaskLimits {
     batch: 256,
@@ -62,7 +67,11 @@ impl Task {
             };
             let others = todo.iter().rposition(|item| item.pair != pair);
             let first = others.map_or(0, |last| last + 1);
-            let first = first.max(todo.len().saturating_sub(AT_ONCE));
+            let at_once = match todo[todo.len() - 1].piece {
+                Piece::Run(_) => RUNS_AT_ONCE,
+                Piece::Nodes(_) | Piece::Leaves(_) => AT_ONCE,
+            };
+            let first = first.max(todo.len().saturating_sub(at_once));
             let Some((trees, numbers)) = (round.pair)(pair) else {
                 todo.truncate(first);
                 continue;
@@ -84,6 +93,11 @@ impl Task {
             let looked_at = [self.walk.found.node_pairs, work.candidates() - before];
             self.share.looked_at.push((pair, looked_at));
             round.exchange.mark();
+            if self.share.leaves.len() >= MOST_LEAVES {
+                // They are tested before it goes on.
+                self.share.waiting.append(&mut self.share.todo);
+                break;
+            }
             if !work.has_room() || round.interrupt.is_set() {
                 // There are too many hits, or the query is interrupted.
                 self.share.todo.clear();
@@ -131,6 +145,12 @@ impl Task {
             let nodes = &mut self.walk.found.nodes;
             let stack = nodes.len();
             if stack == 0 || context.interrupt.is_set() || !work.has_room() {
+                nodes.clear();
+                break;
+            }
+            if self.share.leaves.len() >= MOST_LEAVES {
+                let waiting = nodes.as_slice().iter().copied().map(item);
+                self.share.waiting.extend(waiting);
                 nodes.clear();
                 break;
             }

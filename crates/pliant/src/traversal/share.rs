@@ -23,6 +23,15 @@ pub(crate) enum Piece {
     Run([u32; 2]),
 }
 
+/// Bits of a set of wide nodes or leaves of a tree: 64 numbers from 64 times `number` on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Word {
+    /// Number of the tree.
+    pub(crate) tree: u32,
+    pub(crate) number: u32,
+    pub(crate) bits: u64,
+}
+
 /// Items of a task in a round, and the items and stale nodes it leaves for the next.
 #[derive(Debug, Default)]
 pub(crate) struct Share {
@@ -34,8 +43,8 @@ pub(crate) struct Share {
     pub(crate) leaves: Vec<Item>,
     /// Stale wide nodes that were reached, by the number of the tree. `reached` holds leaves
     /// likewise.
-    pub(crate) stale: Vec<DirtySet>,
-    pub(crate) reached: Vec<DirtySet>,
+    pub(crate) stale: Vec<Word>,
+    pub(crate) reached: Vec<Word>,
     /// Counters by the number of a pair of trees: pairs of nodes, and candidates.
     pub(crate) looked_at: Vec<(u32, [u64; 2])>,
 }
@@ -46,24 +55,20 @@ impl Share {
         for items in [&mut self.todo, &mut self.waiting, &mut self.leaves] {
             items.clear();
         }
-        for sets in [&mut self.stale, &mut self.reached] {
-            sets.iter_mut().for_each(DirtySet::clear);
+        for words in [&mut self.stale, &mut self.reached] {
+            words.clear();
         }
         self.looked_at.clear();
     }
 
-    /// Moves the sets that a walk has noted for two trees to the sets of these trees.
-    pub(super) fn note(sets: &mut Vec<DirtySet>, noted: &mut [DirtySet; 2], trees: [u32; 2]) {
+    /// Moves what a walk has noted of two trees to a list of the words that have bits.
+    pub(super) fn note(words: &mut Vec<Word>, noted: &mut [DirtySet; 2], trees: [u32; 2]) {
         for (tree, noted) in trees.into_iter().zip(noted) {
-            if !noted.is_empty() {
-                let tree = tree as usize;
-                if sets.len() <= tree {
-                    sets.resize_with(tree + 1, DirtySet::default);
-                }
-                sets[tree].take(noted);
-            }
+            let bits = noted.bits_by_word();
+            words.extend(bits.map(|(number, bits)| Word { tree, number, bits }));
+            noted.clear();
         }
     }
 }
 
-held!(Share: todo[], waiting[], leaves[], stale, reached, looked_at[]);
+held!(Share: todo[], waiting[], leaves[], stale[], reached[], looked_at[]);

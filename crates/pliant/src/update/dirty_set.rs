@@ -52,8 +52,9 @@ impl DirtySet {
         }
     }
 
+    /// Puts bits of a word of 64 numbers into the set.
     #[inline]
-    fn insert_bits(&mut self, word: usize, bits: u64) {
+    pub(crate) fn insert_bits(&mut self, word: usize, bits: u64) {
         self.reach_to(word, word);
         self.bits[word] |= bits;
     }
@@ -100,6 +101,12 @@ impl DirtySet {
             return 0..0;
         }
         self.ends[0]..self.ends[1] + 1
+    }
+
+    /// Words that have bits, by their numbers.
+    pub(crate) fn bits_by_word(&self) -> impl Iterator<Item = (u32, u64)> {
+        let words = self.words().zip(&self.bits[self.words()]);
+        words.filter_map(|(word, &bits)| (bits != 0).then_some((word as u32, bits)))
     }
 
     /// Returns how many numbers are in the set.

@@ -249,19 +249,19 @@ pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str
         Error::WithinItself => {
             Some("name two bodies or more and leave out itself=, or leave out within=")
         }
-        Error::CrossingWithin => Some("leave out within= or crossing=, and check twice"),
-        Error::SweptWithin => Some("leave out within= or swept=, and check twice"),
+        Error::CrossingWithin => Some("run two checks, one with within= and one with crossing="),
+        Error::SweptWithin => Some("run two checks, one with within= and one with swept="),
         Error::SweptOneFrame { .. } => {
             Some("name a sequence, choose more of it with frames=, or leave out swept=")
         }
-        Error::SweptBaseline => Some("leave out baseline= or swept=, and check twice"),
+        Error::SweptBaseline => Some("run two checks, one with baseline= and one with swept="),
         Error::TooManyPairs { .. }
         | Error::Endless { .. }
         | Error::TooManyImpacts { .. }
         | Error::EndlessImpacts { .. } => {
             Some("ask for one pair of each frame with first=True, without crossing=")
         }
-        Error::OnePoint { .. } => Some("remove them, and export it again"),
+        Error::OnePoint { .. } => Some("remove these triangles, and export the mesh again"),
         _ => None,
     }
 }
@@ -330,7 +330,7 @@ pub(crate) fn caught<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
         let text = panic.downcast_ref::<String>().map(String::as_str);
         let text = text.or_else(|| panic.downcast_ref().copied());
-        let text = text.unwrap_or("no reason was given");
+        let text = text.unwrap_or("the panic has no message");
         Err(refused!(Broken: "a panic, which is a bug of pliant; please report it: {text}"))
     })
 }

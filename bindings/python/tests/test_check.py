@@ -604,7 +604,7 @@ def test_what_has_no_way_is_refused(jumping: tuple[Path, Path]) -> None:
     refused: list[tuple[tuple[Path, ...], dict[str, object], str]] = [
         (jumping[1:], {}, "only one is to be checked; name a sequence, .*, or leave out swept=$"),
         (jumping, {"frames": range(1, 2)}, "only one is to be checked"),
-        (jumping, {"baseline": 0}, "a baseline cannot be used .*; leave out baseline= or swept=, and check twice$"),
+        (jumping, {"baseline": 0}, "a baseline cannot be used .*; run two checks, one with baseline= and one with swept=$"),
     ]
     for paths, more, message in refused:
         with pytest.raises(pliant.Error, match=message):

@@ -50,8 +50,8 @@ fn reading(error: &pliant_io::Error) -> Option<&'static str> {
         | Reason::NoFrames => "mend it, or export it again",
         Reason::Truncated(_) | Reason::Checksum { .. } => "copy it or export it again",
         Reason::TooMany { .. } => "split the mesh",
-        Reason::TooLarge { .. } => "allow more with `--max-memory`, or split the mesh",
-        Reason::SeamsTooLarge { .. } => "allow more with `--max-memory`, or use `--no-weld`",
+        Reason::TooLarge { .. } => "allow more memory with `--max-memory`, or split the mesh",
+        Reason::SeamsTooLarge { .. } => "allow more memory with `--max-memory`, or use `--no-weld`",
         Reason::SeamsTooDense => "use a smaller `--weld`",
         Reason::BadTolerance { .. } => "choose another with `--weld`",
         Reason::ManyCorners { .. } => "triangulate the mesh first",
@@ -109,15 +109,19 @@ fn checking(error: &CheckError) -> Option<&'static str> {
         CheckError::SweptOneFrame { .. } => {
             Some("name a sequence, choose more of it with `--frames`, or leave out `--swept`")
         }
-        CheckError::SweptWithin => Some("leave out `--within` or `--swept`, and check twice"),
-        CheckError::SweptBaseline => Some("leave out `--baseline` or `--swept`, and check twice"),
+        CheckError::SweptWithin => {
+            Some("run two checks, one with `--within` and one with `--swept`")
+        }
+        CheckError::SweptBaseline => {
+            Some("run two checks, one with `--baseline` and one with `--swept`")
+        }
         CheckError::EmptyGroup { .. } => Some("write NAME=BODY,BODY"),
         CheckError::Endless { .. } | CheckError::EndlessImpacts { .. } => {
             Some("mend the mesh if surfaces lie on each other, or ask for less with `--first`")
         }
-        CheckError::OnePoint { .. } => Some("remove them, and export it again"),
+        CheckError::OnePoint { .. } => Some("remove these triangles, and export the mesh again"),
         CheckError::TooManyPairs { .. } | CheckError::TooManyImpacts { .. } => Some(
-            "allow more with `--max-memory`, or keep no list: \
+            "allow more memory with `--max-memory`, or keep no list: \
              use `--count` or `--first`, without `--crossing`",
         ),
         _ => None,

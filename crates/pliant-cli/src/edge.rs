@@ -83,7 +83,7 @@ pub(crate) fn caught<T>(work: impl FnOnce() -> anyhow::Result<T>) -> anyhow::Res
 fn said(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     text.or_else(|| panic.downcast_ref().copied())
-        .unwrap_or("no reason was given")
+        .unwrap_or("the panic has no message")
 }
 
 #[cfg(test)]

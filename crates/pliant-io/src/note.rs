@@ -73,13 +73,13 @@ impl fmt::Display for Note {
         match self {
             Self::NearSeams { count, farthest } => write!(
                 f,
-                "{count} vertices were joined to others near them, \
+                "{count} vertices were merged with a vertex near them, \
                  at most {farthest:.1e} of the body's size away"
             ),
             Self::SeamsByWeights { count } => write!(
                 f,
-                "{count} vertices were welded to others at their place, \
-                 though the weights of their joints agree only within 1e-5 of their sum"
+                "{count} vertices were merged with others at the same position, \
+                 although their skinning weights differ slightly, by at most 1e-5 of their sum"
             ),
             Self::StillTargets { count, first } => write!(
                 f,

@@ -169,12 +169,12 @@ fn every_error_says_what_to_do_next() {
         ("check a.obj --max-memory 1GB", "write GiB"),
         (
             "check a.obj --max-memory 10",
-            "a frame needs at least 24 bytes of memory, 10 bytes are allowed; allow more with \
-             `--max-memory`, or split the mesh\n",
+            "a frame needs at least 24 bytes of memory, 10 bytes are allowed; allow more memory \
+             with `--max-memory`, or split the mesh\n",
         ),
         (
             "check a.obj --max-memory 100",
-            "100 bytes are allowed; allow more with `--max-memory`, or use `--no-weld`\n",
+            "100 bytes are allowed; allow more memory with `--max-memory`, or use `--no-weld`\n",
         ),
         (
             "convert seam_*.obj x.npz --weld 1e-6",

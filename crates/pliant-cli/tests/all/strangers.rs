@@ -699,6 +699,10 @@ fn very_many_names_are_no_danger() {
     assert!(said.out.starts_with(head), "{}", said.out);
     for (name, limit) in [("many.obj", "16MiB"), ("long.obj", "32MiB")] {
         let arguments = [&[name, "--max-memory", limit], &split[..]].concat();
-        refused_with(path, &arguments, &[name, "allow more with `--max-memory`"]);
+        refused_with(
+            path,
+            &arguments,
+            &[name, "allow more memory with `--max-memory`"],
+        );
     }
 }

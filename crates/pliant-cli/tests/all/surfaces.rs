@@ -64,7 +64,7 @@ fn seams_that_nearly_coincide_are_joined_if_asked_for_and_named_otherwise() {
     assert_eq!(joined.json()["bodies"][0]["welded"], 192 - 34);
     let note = joined.err.trim_end();
     assert!(
-        note.contains("158 vertices were joined to others near them"),
+        note.contains("158 vertices were merged with a vertex near them"),
         "{note}"
     );
     assert_eq!(check(path, &["part.obj", "--quiet"]).err, "");

@@ -304,7 +304,12 @@ impl Reader {
     fn places(accessor: usize, sparse: &Sparse, rows: Rows) -> Result<[Rows; 2], Fault> {
         let component = Component::of(sparse.indices.component_type)
             .filter(|component| [U8, U16, U32].contains(component))
-            .ok_or_else(|| wrong(accessor, "sparse indices must be whole numbers from 0"))?;
+            .ok_or_else(|| {
+                wrong(
+                    accessor,
+                    "sparse indices must have the type unsigned byte, short or int",
+                )
+            })?;
         let sparse_rows = Rows {
             count: sparse.count,
             gaps: false,

@@ -77,7 +77,7 @@ pub(super) fn find<R: Read + Seek>(
             && found.insert(place, (fixed, extra.to_vec())).is_some()
         {
             let name = wanted[place];
-            return Err(damaged(&format!("it holds `{name}` twice")));
+            return Err(damaged(&format!("the array `{name}` is in it twice")));
         }
         if place != Some(0) && names.len() < NAMES_LISTED {
             let array = array.unwrap_or(its_name);
@@ -371,6 +371,9 @@ mod tests {
             .unwrap();
         file[at..at + 3].copy_from_slice(b"one");
         let message = found(&file, "one").unwrap_err().to_string();
-        assert!(message.ends_with("it holds `one` twice"), "{message}");
+        assert!(
+            message.ends_with("the array `one` is in it twice"),
+            "{message}"
+        );
     }
 }

@@ -255,7 +255,7 @@ fn counts_offsets_and_strides_that_overflow() {
                         "values": {"bufferView": 0}}),
                 );
             },
-            "sparse indices must be whole numbers from 0",
+            "sparse indices must have the type unsigned byte, short or int",
         ),
         (
             |file| {

@@ -213,7 +213,7 @@ fn every_error_says_what_to_do_next() {
         ("check a.obj --threads 0", "write a whole number, 1 or more"),
         ("check a.obj --hits x.obj", "must end in .vtp or .vtu"),
         ("check a.obj --hits no/x.vtp", "make its folder first"),
-        ("bench experiment-2", "all; choose one of these\n"),
+        ("bench experiment-2", "all and cores; choose one of these\n"),
         ("bench splits --json no/x.json", "make its folder first"),
         ("bench splits --json .", "name a file in it"),
         ("completions ksh", "[possible values: bash"),

@@ -75,7 +75,8 @@ impl<'py> CopiedCoordinates<'py> {
         Self::anew(Coordinates::read(given)?)
     }
 
-    fn anew(given: Coordinates<'py>) -> Result<Self> {
+    /// Copies them into an array of their own.
+    pub(crate) fn anew(given: Coordinates<'py>) -> Result<Self> {
         Ok(match given {
             Coordinates::F32(array) => Self::F32(copies::anew(&array)?),
             Coordinates::F64(array) => Self::F64(copies::anew(&array)?),

@@ -416,8 +416,9 @@ impl World {
         }
         let mut state = self.state.alone()?;
         let mut copies = Vec::with_capacity(given.len());
-        for (body, given) in &given {
-            copies.push((*body, state.copy(*body, given)?));
+        for (body, given) in given {
+            let copied = CopiedCoordinates::anew(given);
+            copies.push((body, copied.map_err(|refused| refused.of_body(Some(body)))?));
         }
         let mut shapes = Vec::with_capacity(copies.len());
         for (body, copied) in &copies {

@@ -568,8 +568,8 @@ def test_what_cannot_be_close_is_refused(jumping: tuple[Path, Path]) -> None:
         (jumping, {"within": float("nan")}, "a distance must be finite"),
         (jumping[:1], {"within": 1.0}, "neighbouring triangles .*; name two bodies or more and leave out itself="),
         (jumping, {"within": 1.0, "itself": True}, "neighbouring triangles"),
-        (jumping, {"within": 1.0, "crossing": True}, "cannot be asked for in one check: .*; leave out within= or crossing="),
-        (jumping, {"within": 1.0, "swept": True}, "cannot be asked for in one check: .*; leave out within= or swept="),
+        (jumping, {"within": 1.0, "crossing": True}, "cannot be asked for in one check: .*; run two checks, one with within= and one with crossing="),
+        (jumping, {"within": 1.0, "swept": True}, "cannot be asked for in one check: .*; run two checks, one with within= and one with swept="),
     ]
     for paths, more, message in refused:
         with pytest.raises(pliant.Error, match=message):

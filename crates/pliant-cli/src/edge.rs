@@ -97,7 +97,7 @@ mod tests {
         assert!(said.contains("a bug of pliant"), "{said}");
         assert!(said.contains("two lines of a library"), "{said}");
         assert!(!said.contains('\n'), "{said}");
-        assert!(error(|| std::panic::panic_any(7)).contains("no reason"));
+        assert!(error(|| std::panic::panic_any(7)).contains("no message"));
         assert_eq!(caught(|| Ok(5)).unwrap(), 5);
         assert_eq!(error(|| anyhow::bail!("refused")), "refused");
     }

@@ -621,7 +621,7 @@ fn what_would_take_hours_is_refused_with_its_reason() {
         if is_refused {
             said.assert_refused(&[
                 "point.stl, frame 0: 200000 triangles have no size and lie at one point, (0.0, \
-                 0.0, 0.0); each would be a pair with every other; remove them",
+                 0.0, 0.0); each would be a pair with every other; remove these triangles",
             ]);
         } else {
             assert_eq!((said.code, said.err.as_str()), (1, ""));

@@ -285,14 +285,14 @@ fn what_has_no_way_or_no_form_is_refused() {
         &with(&["--within", "0.1"]),
         &[
             "on the way, only contacts are found",
-            "leave out `--within` or `--swept`",
+            "run two checks, one with `--within` and one with `--swept`",
         ],
     );
     refused(
         &with(&["--baseline", "0"]),
         &[
             "a baseline cannot be used for what meets on the way",
-            "leave out `--baseline` or `--swept`",
+            "run two checks, one with `--baseline` and one with `--swept`",
         ],
     );
     for more in [

@@ -385,7 +385,7 @@ def test_many_shapes_at_once(dtype: type) -> None:
     bodies = [world.add(FACES, SHAPE.astype(dtype)) for _ in range(3)]
     for _ in bodies:
         twin.add(FACES, SHAPE.astype(dtype))
-    shapes = {body: (SHAPE + body).astype(dtype) for body in bodies}
+    shapes: dict[int, Any] = {body: (SHAPE + body).astype(dtype) for body in bodies}
     world.set_positions_of(shapes)
     for body, shape in shapes.items():
         twin.set_positions(body, shape)

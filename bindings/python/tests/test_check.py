@@ -475,7 +475,7 @@ def test_near_seams_are_joined_if_asked_for_and_named_otherwise(tmp_path: Path) 
     with pytest.warns(UserWarning, match=r"nearly coincide.*weld_tolerance=\S+ joins them"):
         (frame,) = checked
     assert frame.count > 0
-    with pytest.warns(UserWarning, match="8 vertices were joined"):
+    with pytest.warns(UserWarning, match="8 vertices were merged"):
         checked = pliant.check(tmp_path / "part.obj", weld_tolerance=1e-6)
     assert [frame.count for frame in checked] == [0] and checked.bodies[0].welded == 8
     with pytest.raises(pliant.Error, match="weld_tolerance="):

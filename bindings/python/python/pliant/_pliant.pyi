@@ -155,7 +155,7 @@ class World:
         """Gives a body a new shape: positions (n, 3), a row for each vertex."""
     def set_positions_of(
         self,
-        shapes: Mapping[SupportsIndex, _Array] | Iterable[tuple[SupportsIndex, _Array]],
+        shapes: Mapping[int, _Array] | Iterable[tuple[SupportsIndex, _Array]],
     ) -> None:
         """Gives several bodies new shapes at once: all of them, or none if one is refused."""
     def write_positions(self, body: SupportsIndex, write: Callable[[NDArray[Any]], object]) -> None:

@@ -68,8 +68,8 @@ use pyo3::types::{PyDict, PyTuple};
 ///   of the tree, and all levels where a body meets itself
 /// - broad: how pairs of bodies are found. "brute" compares all boxes, "sweep" is sweep and prune,
 ///   "tree" a tree of bodies. "auto" is "brute" up to 100 bodies, then "tree"
-/// - threads: how many threads share the work of a query. More pay from about a millisecond of work
-///   on
+/// - threads: how many threads share the work of a query. Small steps gain nothing from more:
+///   `pliant bench cores` measures your machine
 /// - mending: whether a tree that has decayed is built anew, a part of the work at each new shape:
 ///   see tree_quality
 ///

@@ -54,8 +54,11 @@ pub enum Question {
     FreeStep,
 }
 
+/// Number of combinations of a scene and a question that are measured.
+pub const COUNT: usize = SCENES.len() * QUESTIONS.len();
+
 /// All questions.
-pub const QUESTIONS: [Question; 7] = [
+const QUESTIONS: [Question; 7] = [
     Question::Intersections,
     Question::Candidates,
     Question::Close,
@@ -91,17 +94,17 @@ pub struct Measured {
 /// Milliseconds that a part costs which two threads share, for nothing.
 pub fn wait_ms() -> f64 {
     let mut world = world_of(2);
-    world.wait_for_threads(WAITS / 10);
+    world.run_empty_parts(WAITS / 10);
     let start = Instant::now();
-    world.wait_for_threads(WAITS);
+    world.run_empty_parts(WAITS);
     milliseconds(start.elapsed()) / f64::from(WAITS)
 }
 
 /// Measures all scenes and questions, or small ones. `show` is given each as it is known.
-///
-/// # Panics
-///
-/// Never: scenes and their shapes are fixed, and worlds take them.
+#[expect(
+    clippy::missing_panics_doc,
+    reason = "scenes and their shapes are fixed, and worlds take them"
+)]
 pub fn measure(is_small: bool, rounds: usize, show: &mut dyn FnMut(&Measured)) -> Vec<Measured> {
     let wait = wait_ms();
     let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
@@ -343,7 +346,7 @@ mod tests {
     fn small_scenes_are_measured() {
         let mut shown = 0;
         let all = measure(true, 1, &mut |_| shown += 1);
-        assert_eq!(all.len(), SCENES.len() * QUESTIONS.len());
+        assert_eq!(all.len(), COUNT);
         assert_eq!(shown, all.len());
         assert!(
             all.iter()

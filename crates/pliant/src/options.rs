@@ -30,13 +30,15 @@ pub struct Options {
     pub broad_phase: BroadPhase,
     /// Threads that share the work of a query, the calling one included. Default: 1.
     ///
-    /// They share the work of two bodies. Where many bodies meet and all pairs are asked for, they
-    /// share the pairs of bodies. They belong to the world, or to [a pool](crate::World::with_pool)
-    /// that it was lent. Where the system gives none, the calling thread does it all.
+    /// A query wakes as many as its work pays for. Where all hits are asked for, they share the
+    /// work of all pairs of bodies; else that of two bodies.
     ///
-    /// More threads pay from about a millisecond of work on; more than 256 are taken as 256. For a
-    /// fifth of a millisecond after a query, threads of the world look for more work before they
-    /// sleep.
+    /// They belong to the world, or to [a pool](crate::World::with_pool) that it was lent. Where
+    /// the system gives none, the calling thread does it all.
+    ///
+    /// Small steps gain nothing from more: `pliant bench cores` measures your machine. More than
+    /// 256 are taken as 256. For a fifth of a millisecond after a query, threads of the world look
+    /// for more work before they sleep.
     pub threads: NonZeroUsize,
     /// Whether trees of bodies [mend themselves](crate::World::tree_quality). Default: no.
     ///

@@ -4,8 +4,8 @@ use super::tables;
 use crate::outcome::Outcome;
 use crate::output::{self, Overwrite};
 use crate::table::table;
-use crate::terminal::print_all;
-use pliant_bench::cores::{Measured, WORKERS, measure, wait_ms};
+use crate::terminal::{print_all, progress};
+use pliant_bench::cores::{COUNT, Measured, WORKERS, measure, wait_ms};
 use pliant_bench::machine::this_machine;
 use pliant_bench::record::Machine;
 use serde::Serialize;
@@ -48,13 +48,12 @@ pub(super) fn cores(asked: &Asked) -> anyhow::Result<Outcome> {
     header.extend(predicted.iter().map(String::as_str));
     header.push("measured");
     let mut rows = table(&header);
+    let bar = progress(COUNT as u64, asked.is_quiet);
     let all = measure(asked.is_small, asked.rounds, &mut |one| {
         rows.add_row(row(one));
-        if !asked.is_quiet {
-            // One line at a time as well: the whole takes minutes.
-            eprintln!("{}, {}", one.scene, name_of(one));
-        }
+        bar.inc(1);
     });
+    bar.finish_and_clear();
     if !asked.is_quiet {
         print_all(&format!("{}\n{rows}\n", tables::machine_line(&machine)))?;
     }

@@ -200,8 +200,8 @@ impl<S: Scalar> World<S> {
 
     /// Has all threads share `parts` pieces without work, for benchmarks that time waits.
     #[doc(hidden)]
-    pub fn wait_for_threads(&mut self, parts: u32) {
-        self.state_mut().wait_for_threads(parts);
+    pub fn run_empty_parts(&mut self, parts: u32) {
+        self.state_mut().run_empty_parts(parts);
     }
 
     /// Parts that were recorded since the last call.

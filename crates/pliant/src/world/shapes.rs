@@ -72,7 +72,7 @@ impl<S: Scalar> World<S> {
     /// # Ok::<(), pliant::Error>(())
     /// ```
     ///
-    /// Cost: O(n) in all vertices.
+    /// Cost: O(n) in all vertices. Allocates a list of the bodies.
     ///
     /// # Errors
     ///

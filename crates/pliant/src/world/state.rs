@@ -98,7 +98,7 @@ impl<S: Coordinate> State<S> {
     }
 
     /// Has all threads share `parts` pieces without work.
-    pub(super) fn wait_for_threads(&mut self, parts: u32) {
+    pub(super) fn run_empty_parts(&mut self, parts: u32) {
         let interrupt = Interrupt::default();
         let executor = self.common.executor(&interrupt);
         let mut jobs = vec![(); executor.count()];

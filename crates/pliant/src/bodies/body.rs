@@ -24,8 +24,8 @@ use crate::mesh::{Changed, EMPTY, Order, Topology};
 use crate::options::Options;
 use crate::queries::{BodyBoxes, Needs, Reach, Which};
 use crate::threads::Executor;
-use crate::traversal::{Side, View};
-use crate::tree::{Grown, Tree};
+use crate::traversal::{Read, Side};
+use crate::tree::{BoxSet, Grown, Tree};
 use std::borrow::Cow;
 
 /// A body of a world. Its parts change each other only through their methods, called here.
@@ -129,8 +129,10 @@ impl<S: Coordinate> Body<S> {
         positions: &[[S; 3]],
         threads: (Instructions, Executor),
     ) -> Result<(), ErrorKind> {
-        let staged = self.check_positions(positions, threads)?;
-        self.accept_positions(&staged, positions, threads);
+        let new = self.mesh.new_shape(positions);
+        self.shape.take(&new, self.filter.loose(), threads)?;
+        self.shape.begin_version();
+        self.motion.stop();
         Ok(())
     }
 
@@ -402,41 +404,33 @@ impl<S: Coordinate> Body<S> {
         parts.two_mut(numbers).map(side)
     }
 
-    /// Read-only view of one part for the tasks of a query; all that they read was made ready.
-    pub(crate) fn view(&self, needs: &Needs, origin: Origin, part: usize) -> Option<View<'_, S>> {
-        let Self {
-            mesh,
-            shape,
-            motion,
-            parts,
-            filter,
-            ..
-        } = self;
-        let part = parts.all().nth(part)?.for_reading(needs.box_set)?;
-        Some(Queried::of((mesh, shape, motion, filter), needs, origin).side(part))
+    /// Data and boxes of one part, for the tasks of a query; all that they read was made ready.
+    pub(crate) fn read(
+        &self,
+        needs: &Needs,
+        origin: Origin,
+        part: usize,
+    ) -> Option<(Read<'_, S>, &BoxSet)> {
+        let part = self.parts.all().nth(part)?;
+        let (tree, boxes, near_boxes) = part.for_reading(needs.box_set)?;
+        let parts = (&self.mesh, &self.shape, &self.motion, &self.filter);
+        let queried = Queried::of(parts, needs, origin);
+        Some((queried.read(tree, near_boxes), boxes))
     }
 
-    /// All parts, and a function that makes the view of one for a query.
+    /// All parts, and a function that makes the side of one for a query.
     #[inline]
     fn parts_and_sides<'b>(
         &'b mut self,
         needs: &Needs,
         origin: Origin,
     ) -> (&'b mut Parts, impl Fn(&'b mut Part) -> Side<'b, S>) {
-        let Self {
-            mesh,
-            shape,
-            motion,
-            parts,
-            filter,
-            ..
-        } = self;
-        let (queried, set) = (
-            Queried::of((mesh, shape, motion, filter), needs, origin),
-            needs.box_set,
-        );
-        (parts, move |part: &'b mut Part| {
-            queried.side(part.for_query(set))
+        let parts = (&self.mesh, &self.shape, &self.motion, &self.filter);
+        let (queried, set) = (Queried::of(parts, needs, origin), needs.box_set);
+        (&mut self.parts, move |part: &'b mut Part| {
+            let (tree, boxes, near_boxes) = part.for_query(set);
+            let read = queried.read(tree, near_boxes);
+            Side { read, boxes }
         })
     }
 

@@ -167,7 +167,7 @@ fn ask<K: Kind>(
     common.scratch.begin(wants_all);
     let meet: Meet<K::Scalar> = &mut |step, bodies, pairs| {
         let executor = step.refit.executor;
-        if !together.is_worth_it(executor, bodies, pairs) {
+        if !together.pays_for_threads(executor, bodies, pairs) {
             step.refit.executor = executor.alone();
         } else if wants_all {
             return together.meet(step, bodies, pairs, &mut answer);
@@ -179,7 +179,7 @@ fn ask<K: Kind>(
     };
     let done = common.for_each_batch(kind.needs(), request, interrupt, false, meet);
     if wants_all && done.is_ok() {
-        together.note_work(&common.statistics);
+        together.note_cost(&common.statistics);
     }
     done
 }

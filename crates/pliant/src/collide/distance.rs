@@ -111,8 +111,8 @@ impl Distances {
             let (ControlFlow::Continue(a), ControlFlow::Continue(b)) = sides else {
                 return Ok(None);
             };
-            let removed = [a.removed, b.removed];
-            let last_shapes = [*a.source.shape(), *b.source.shape()];
+            let removed = [a.read.removed, b.read.removed];
+            let last_shapes = [*a.read.source.shape(), *b.read.source.shape()];
             let mut pair = TreePair::Two([a, b]);
             let mut measure = |shapes: [&Shape<'_, S>; 2], triangles: Candidate| {
                 let is_gone = |which: usize| {

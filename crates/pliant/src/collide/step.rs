@@ -124,7 +124,7 @@ impl Step<'_> {
         tasks: &mut dyn Tasks<S>,
     ) -> ControlFlow<()> {
         let mut pair = TreePair::Two(both);
-        if are_several && !pair.do_overlap() {
+        if are_several && !pair.views().do_overlap() {
             return ControlFlow::Continue(());
         }
         self.descend(&mut pair, tasks)

@@ -17,9 +17,9 @@ use crate::queries::Needs;
 use crate::statistics::Statistics;
 use crate::threads::{Exchange, Executor, Grain, PerThread, locked};
 use crate::traversal::{
-    Item, PairOf, Piece, Round, Scratch, Tasks, TreePair, View, Word, leaves_left_out,
+    Item, Pairs, Piece, Round, Scratch, Tasks, View, Views, Word, leaves_left_out,
 };
-use crate::update::{DirtySet, Partner, Refit};
+use crate::update::{DirtySet, Partner, Refit, Refitted};
 use std::iter;
 use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError};
@@ -44,7 +44,7 @@ pub(crate) struct Together {
     looked_at: Vec<[u64; 2]>,
     /// Partners of each body, by its place; none if the body takes no part.
     partners: Vec<Option<Partner>>,
-    helpers: PerThread<Helper>,
+    helpers: PerThread<RefitBuffers>,
     /// Triangles of all pairs of bodies of the query so far.
     triangles: usize,
     /// Estimated time of the last query a triangle, in 1,024ths of a nanosecond.
@@ -71,7 +71,7 @@ struct Items {
 
 /// Buffers and counters of one thread that refits boxes.
 #[derive(Debug, Default)]
-struct Helper {
+struct RefitBuffers {
     scratch: Scratch,
     statistics: Statistics,
 }
@@ -87,7 +87,7 @@ impl Together {
 
     /// Whether pairs of bodies are worth several threads, judged by their triangles and by what
     /// these took in the last query.
-    pub(crate) fn is_worth_it<S: Coordinate>(
+    pub(crate) fn pays_for_threads<S: Coordinate>(
         &mut self,
         executor: Executor,
         bodies: &Bodies<S>,
@@ -107,7 +107,8 @@ impl Together {
     }
 
     /// Estimates the time of the query from its counters, for the next query.
-    pub(crate) fn note_work(&mut self, statistics: &Statistics) {
+    pub(crate) fn note_cost(&mut self, statistics: &Statistics) {
+        // Nanoseconds each, as profiles had them: `benchmarks/NOTES.md`, "Where the time goes".
         let boxes = statistics.boxes_bottom_up + statistics.boxes_top_down;
         let work = 12 * statistics.node_pairs
             + 10 * (boxes + statistics.triangle_boxes)
@@ -230,10 +231,13 @@ impl Together {
             let first = trees.partition_point(|&(at, _)| at.index() < place.index());
             first..first + bodies.at(place).part_count()
         };
-        let view = |tree: usize| view(bodies, &step.needs, step.origin, trees[tree]);
-        let do_overlap = |[a, b]: [usize; 2]| {
-            let both = view(a).zip(view(b));
-            both.is_some_and(|(a, b)| TreePair::Two([a, b]).do_overlap())
+        let do_overlap = |both: [usize; 2]| {
+            let mut do_overlap = false;
+            let both = both.map(|tree| trees[tree]);
+            show_trees(bodies, (&step.needs, step.origin), both, &mut |pair| {
+                do_overlap = pair.do_overlap();
+            });
+            do_overlap
         };
         for (of, &[a, b]) in (0..).zip(pairs) {
             let (of_a, of_b) = (trees_of(a), trees_of(b));
@@ -266,12 +270,15 @@ impl Together {
             if pair.trees[0] != pair.trees[1] {
                 continue;
             }
-            let view = view(bodies, &step.needs, step.origin, tree);
-            let leaves = view.map_or(0, |view| leaves_left_out(&step.needs, view));
+            let mut leaves = 0;
+            let count = &mut |pair: Views<S>| leaves = leaves_left_out(&step.needs, &pair);
+            show_trees(bodies, (&step.needs, step.origin), [tree; 2], count);
             let runs = (0..leaves).step_by(RUN);
             self.items.now.extend(runs.map(|start| Item {
                 pair: number,
-                piece: Piece::Run([start, (start + RUN).min(leaves)].map(|leaf| leaf as u32)),
+                piece: Piece::Neighbours(
+                    [start, (start + RUN).min(leaves)].map(|leaf| leaf as u32),
+                ),
             }));
         }
     }
@@ -299,26 +306,22 @@ impl Together {
         }
         items.now.clear();
         let (trees, pairs) = (&self.trees, &self.pairs);
-        let (needs, origin) = (step.needs, step.origin);
-        let pair: PairOf<S> = &|number| {
-            let both = pairs[number as usize].trees;
-            let [a, b] = both.map(|tree| view(bodies, &needs, origin, trees[tree as usize]));
-            let pair = if both[0] == both[1] {
-                TreePair::One(a?)
-            } else {
-                TreePair::Two([a?, b?])
-            };
-            Some((pair, both))
+        let lookup = &Lookup {
+            bodies,
+            needs: step.needs,
+            origin: step.origin,
+            trees,
+            pairs,
         };
         let exchange = &Exchange::new(executor, used);
         let round = Round {
-            needs,
+            needs: step.needs,
             instructions: step.refit.instructions,
             interrupt: executor.interrupt,
             exchange,
-            pair,
+            pairs: lookup,
         };
-        tasks.run(executor, used, &|task, work| task.round(&round, work));
+        tasks.run(executor, used, &|task, work| task.run_round(&round, work));
         if executor.is_interrupted() {
             return ControlFlow::Break(());
         }
@@ -354,18 +357,15 @@ impl Together {
         step: &mut Step,
         bodies: &mut Bodies<S>,
     ) -> ControlFlow<()> {
-        let (trees, helpers) = (&self.trees, &mut self.helpers);
+        let sets = (&self.trees[..], &self.stale[..]);
         refit(
             step,
             bodies,
-            (trees, &self.stale),
-            helpers,
-            &|step, body, part, stale| {
-                let (needs, origin) = (step.needs, step.origin);
+            sets,
+            &mut self.helpers,
+            &|step, one, stale| {
                 let lists = &mut step.scratch.wide_nodes;
-                let mut side = body.side(&needs, origin, part);
-                let refitted = &mut side.refitted();
-                step.refit.reached(refitted, stale, lists, step.statistics);
+                step.refit.reached(one, stale, lists, step.statistics);
             },
         )
     }
@@ -376,18 +376,14 @@ impl Together {
         step: &mut Step,
         bodies: &mut Bodies<S>,
     ) -> ControlFlow<()> {
-        let (trees, helpers) = (&self.trees, &mut self.helpers);
+        let sets = (&self.trees[..], &self.reached[..]);
         refit(
             step,
             bodies,
-            (trees, &self.reached),
-            helpers,
-            &|step, body, part, reached| {
-                let (needs, origin) = (step.needs, step.origin);
-                let mut side = body.side(&needs, origin, part);
-                let refitted = &mut side.refitted();
-                step.refit
-                    .reached_leaves(refitted, reached, step.statistics);
+            sets,
+            &mut self.helpers,
+            &|step, one, reached| {
+                step.refit.reached_leaves(one, reached, step.statistics);
             },
         )
     }
@@ -412,25 +408,57 @@ impl Together {
     }
 }
 
-/// Read-only view of a tree of a body, for tasks.
-fn view<'b, S: Coordinate>(
-    bodies: &'b Bodies<S>,
-    needs: &Needs,
+/// Pairs of trees by their numbers, for tasks.
+struct Lookup<'q, S> {
+    bodies: &'q Bodies<S>,
+    needs: Needs,
     origin: Origin,
-    (place, part): (Place, usize),
-) -> Option<View<'b, S>> {
-    bodies.at(place).view(needs, origin, part)
+    trees: &'q [(Place, usize)],
+    pairs: &'q [Pair],
 }
 
-/// Refits boxes of a part of a body.
-type MakeBoxes<'e, S> = &'e (dyn Fn(&mut Step, &mut Body<S>, usize, &mut DirtySet) + Sync);
+impl<S: Coordinate> Pairs<S> for Lookup<'_, S> {
+    fn show(&self, pair: u32, see: &mut dyn FnMut(Views<S>, [u32; 2])) {
+        let numbers = self.pairs[pair as usize].trees;
+        let trees = numbers.map(|tree| self.trees[tree as usize]);
+        let queried = (&self.needs, self.origin);
+        show_trees(self.bodies, queried, trees, &mut |pair| see(pair, numbers));
+    }
+}
+
+/// Shows the views of two trees, or of one with itself. Their bodies were made ready.
+fn show_trees<S: Coordinate>(
+    bodies: &Bodies<S>,
+    (needs, origin): (&Needs, Origin),
+    [a, b]: [(Place, usize); 2],
+    see: &mut dyn FnMut(Views<S>),
+) {
+    let read = |(place, part): (Place, usize)| bodies.at(place).read(needs, origin, part);
+    let Some((read_a, boxes)) = read(a) else {
+        debug_assert!(false, "a tree has no boxes");
+        return;
+    };
+    let first = View {
+        read: &read_a,
+        boxes,
+    };
+    if a == b {
+        see(Views::one(first));
+    } else if let Some((read_b, boxes)) = read(b) {
+        let read = &read_b;
+        see(Views::two([first, View { read, boxes }]));
+    }
+}
+
+/// Refits boxes of a tree, which were reached.
+type MakeBoxes<'e, S> = &'e (dyn Fn(&mut Step, &mut Refitted<S>, &mut DirtySet) + Sync);
 
 /// Refits the boxes that were reached, in all trees.
 fn refit<S: Coordinate>(
     step: &mut Step,
     bodies: &mut Bodies<S>,
     (trees, sets): (&[(Place, usize)], &[Mutex<DirtySet>]),
-    helpers: &mut PerThread<Helper>,
+    helpers: &mut PerThread<RefitBuffers>,
     make: MakeBoxes<S>,
 ) -> ControlFlow<()> {
     let of_trees = || trees.iter().zip(sets);
@@ -455,7 +483,8 @@ fn refit<S: Coordinate>(
             for (&(_, part), set) in own.take_while(|&(&(at, _), _)| at.index() == place) {
                 let set = &mut *locked(set);
                 if !set.is_empty() {
-                    make(step, body, part, set);
+                    let mut side = body.side(&step.needs, step.origin, part);
+                    make(step, &mut side.refitted(), set);
                 }
             }
             ControlFlow::Continue(())
@@ -468,7 +497,7 @@ fn refit<S: Coordinate>(
 fn each_body<S: Coordinate>(
     step: &mut Step,
     bodies: &mut Bodies<S>,
-    helpers: &mut PerThread<Helper>,
+    helpers: &mut PerThread<RefitBuffers>,
     (count, nanoseconds): (usize, u64),
     do_one: EachBody<S>,
 ) -> ControlFlow<()> {
@@ -482,7 +511,7 @@ fn each_body<S: Coordinate>(
         executor.run(&mut jobs, nanoseconds, |_, (place, body)| {
             // Not locked while the job is done: a lent pool may have threads of one number.
             let mut own = std::mem::take(&mut *helping.own());
-            let Helper {
+            let RefitBuffers {
                 scratch,
                 statistics,
             } = &mut own;

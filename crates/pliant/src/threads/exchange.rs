@@ -49,7 +49,7 @@ impl<'q, T> Exchange<'q, T> {
 
     /// Whether another worker waits for work.
     #[inline]
-    pub(crate) fn is_wanted(&self) -> bool {
+    pub(crate) fn is_anyone_idle(&self) -> bool {
         self.idle.load(Ordering::Relaxed) > 0
     }
 
@@ -121,7 +121,7 @@ mod tests {
                     while let Some(number) = stack.pop() {
                         *done += 1;
                         stack.extend(0..number);
-                        if exchange.is_wanted() && stack.len() > 1 {
+                        if exchange.is_anyone_idle() && stack.len() > 1 {
                             exchange.give(stack.drain(..stack.len() / 2));
                         }
                     }

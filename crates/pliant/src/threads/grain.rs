@@ -1,8 +1,8 @@
 //! Grain sizes of jobs, and the number of threads that the work of a part pays for.
 //!
 //! Idea: `W` nanoseconds on `p` threads take about `W / p + p * HELPER`, which is least at `p =
-//! sqrt(W / HELPER)`. Invariant: work is cut by its size alone, never by the number of threads.
-//! Times of jobs are rough figures: they choose how many threads wake, and change no answer.
+//! sqrt(W / HELPER)`. Invariant: results never depend on the number of threads. Times of jobs are
+//! rough figures: they choose how many threads wake, and change no answer.
 
 /// Size of a job of some kind of work.
 #[derive(Clone, Copy, Debug)]
@@ -13,7 +13,7 @@ pub(crate) struct Grain {
     pub(crate) nanoseconds: u64,
 }
 
-/// Cost of one more thread, in nanoseconds: handing it a share, and waiting for it.
+/// Assumed cost of one more thread, in nanoseconds: handing it a share, and waiting for it.
 const HELPER: u64 = 2_000;
 
 impl Grain {

@@ -1,9 +1,11 @@
 //! Threads of a world: jobs for one thread or many. No other folder names a thread pool.
 //!
-//! Idea: work is cut into jobs by its size, never by the number of threads. A part uses as many
-//! threads as its work pays for (`grain`), while the others sleep (`pool`). Invariant: every job
-//! writes only its own data, and results are joined in the order of jobs, or sorted. So answers,
-//! their order and counters are the same for any number of threads.
+//! Idea: work is cut into jobs by its size; only rounds of a traversal are cut by the number of
+//! threads. A part uses as many threads as its work pays for (`grain`), while the others sleep
+//! (`pool`).
+//!
+//! Invariant: every job writes only its own data, and results are joined in the order of jobs, or
+//! sorted. So answers, their order and counters are the same for any number of threads.
 
 mod budget;
 mod exchange;
@@ -96,22 +98,23 @@ impl Threads {
     }
 
     /// Threads of this process, which may be the child of a fork.
-    ///
-    /// In a child, private threads are made anew. The state of a pool that was lent is unknown
-    /// there, so the calling thread does all work.
+    #[inline]
     pub(crate) fn here(&mut self) -> &Self {
-        if let Some(helpers) = self
-            .helpers
-            .as_ref()
-            .filter(|helpers| helpers.are_elsewhere())
-        {
-            let count = NonZeroUsize::MIN.saturating_add(helpers.count);
-            *self = match helpers.awake {
-                Some(_) => Self::private(count),
-                None => Self::one(),
-            };
+        let helpers = self.helpers.as_ref();
+        if let Some(helpers) = helpers.filter(|helpers| helpers.are_elsewhere()) {
+            *self = Self::after_fork(helpers);
         }
         self
+    }
+
+    /// Threads for the child of a fork. Private threads are made anew. The state of a pool that was
+    /// lent is unknown there, so the calling thread does all work.
+    #[cold]
+    fn after_fork(helpers: &Helpers) -> Self {
+        match helpers.awake {
+            Some(_) => Self::private(NonZeroUsize::MIN.saturating_add(helpers.count)),
+            None => Self::one(),
+        }
     }
 }
 
@@ -148,7 +151,11 @@ impl Executor<'_> {
 
     /// Number of threads that work of `nanoseconds` pays for, at most as many as there are.
     pub(crate) fn threads_for(&self, nanoseconds: u64) -> usize {
-        threads_for(nanoseconds).min(self.count())
+        match self.count() {
+            // Most parts of a small step: no square root for each.
+            1 => 1,
+            count => threads_for(nanoseconds).min(count),
+        }
     }
 
     /// Whether work of `nanoseconds` pays for several threads, and there are several.
@@ -230,17 +237,14 @@ impl Executor<'_> {
                 work(number, job);
             }
         };
-        let most_threads = threads_for(nanoseconds).min(jobs.len());
-        let threads = most_threads.min(self.count());
-        match self.threads {
-            Threads {
-                recorder: Some(recorder),
-                ..
-            } if jobs.len() > 1 => recorder.run(jobs, most_threads, work),
-            Threads {
-                helpers: Some(helpers),
-                ..
-            } if threads > 1 => helpers.share(jobs, threads, work),
+        let Threads { helpers, recorder } = self.threads;
+        if let Some(recorder) = recorder.as_ref().filter(|_| jobs.len() > 1) {
+            let most_threads = threads_for(nanoseconds).min(jobs.len());
+            return recorder.run(jobs, most_threads, work);
+        }
+        let threads = self.threads_for(nanoseconds).min(jobs.len());
+        match helpers {
+            Some(helpers) if threads > 1 => helpers.share(jobs, threads, work),
             _ => {
                 for (number, job) in jobs.iter_mut().enumerate() {
                     work(number, job);

@@ -69,7 +69,7 @@ impl Helpers {
             .chunks_mut(size)
             .enumerate()
             .map(|(which, jobs)| {
-                Mutex::new(Share {
+                Mutex::new(JobRange {
                     first: which * size,
                     jobs,
                 })
@@ -121,12 +121,12 @@ impl Helpers {
 }
 
 /// Adjacent jobs: their owner takes them from the front, other threads from the back.
-struct Share<'j, J> {
+struct JobRange<'j, J> {
     first: usize,
     jobs: &'j mut [J],
 }
 
-impl<'j, J> Share<'j, J> {
+impl<'j, J> JobRange<'j, J> {
     /// Takes a job, with its number.
     fn take(&mut self, from_front: bool) -> Option<(usize, &'j mut J)> {
         let jobs = std::mem::take(&mut self.jobs);
@@ -147,7 +147,7 @@ impl<'j, J> Share<'j, J> {
 }
 
 /// Runs the jobs of one share, and then of the others, until none is left.
-fn do_all<J>(shares: &[Mutex<Share<'_, J>>], own: usize, work: &dyn Fn(usize, &mut J)) {
+fn do_all<J>(shares: &[Mutex<JobRange<'_, J>>], own: usize, work: &dyn Fn(usize, &mut J)) {
     let (before, after) = shares.split_at(own);
     for (which, share) in after.iter().chain(before).enumerate() {
         // Not in the condition of the loop: the lock would be held while the job is done.
@@ -186,7 +186,7 @@ mod tests {
     #[test]
     fn shares_are_taken_from_both_ends() {
         let mut jobs = [10, 11, 12];
-        let mut share = Share {
+        let mut share = JobRange {
             first: 4,
             jobs: &mut jobs[..],
         };

@@ -1,16 +1,15 @@
 //! Context of a descent: what its tasks share, and the limits after which each yields to the
 //! others.
 
-use super::tree_pair::TreePair;
+use super::tree_pair::Views;
 use crate::kernels::Instructions;
 use crate::queries::Needs;
 use crate::threads::Interrupt;
-use crate::tree::BoxSet;
 
 /// Read-only context that all tasks of a descent share.
 pub(super) struct Context<'q, S> {
     pub(super) needs: Needs,
-    pub(super) pair: &'q TreePair<'q, S, &'q BoxSet>,
+    pub(super) pair: Views<'q, S>,
     pub(super) instructions: Instructions,
     pub(super) interrupt: &'q Interrupt<'q>,
     pub(super) limits: TaskLimits,

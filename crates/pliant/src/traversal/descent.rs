@@ -8,8 +8,7 @@ use crate::ids::{NodeId, WideNodeId};
 use crate::kernels::{Buffer, Coordinate};
 use crate::queries::Needs;
 use crate::statistics::Statistics;
-use crate::threads::Executor;
-use crate::tree::{BoxSet, NodePair};
+use crate::tree::NodePair;
 use crate::update::{DirtySet, Refit};
 use std::ops::ControlFlow;
 
@@ -21,9 +20,6 @@ const FIRST_BATCH: usize = 1;
 const LONGEST_BATCH: usize = 256;
 /// Pairs of leaves of a task from which it tests them, after the batch at hand.
 const MOST_LEAF_PAIRS: usize = 512;
-/// Pairs of leaves of a task from which it tests them, where threads share the tasks. More than for
-/// one thread: each has a cache of its own, and all wait for the last.
-const MOST_LEAF_PAIRS_SHARED: usize = 2048;
 /// Most pairs of blocks, or a few more, that a task tests before a visitor is shown hits. This
 /// bounds memory for any leaf size.
 const MOST_BEFORE_SHOWN: usize = 8192;
@@ -32,9 +28,6 @@ const MOST_BEFORE_SHOWN: usize = 8192;
 const ENOUGH_TO_DISTRIBUTE: usize = 128;
 /// Number of tasks where boxes may be stale: few, so that all work in about one place of the trees.
 const TASKS: usize = 8;
-/// Tasks per thread where boxes may be stale and all hits are wanted, if that makes more than
-/// [`TASKS`]. The hits found and the boxes made are then the same in any order.
-const TASKS_A_THREAD: usize = 2;
 /// Number of tasks where all boxes are known to be valid: many, so that none waits long for
 /// another.
 const FREE_TASKS: usize = 32;
@@ -124,8 +117,8 @@ pub(crate) fn descend<S: Coordinate>(
     statistics: &mut Statistics,
 ) -> ControlFlow<()> {
     let executor = refit.executor;
-    let are_free = are_free(&needs, pair.view().sides());
-    let (most_tasks, most_leaf_pairs) = shares(are_free, tasks.wants_all(), executor);
+    let are_free = are_free(&needs, pair.views().sides());
+    let most_tasks = task_count(are_free, tasks.wants_all());
     scratch.reserve.clear();
     tasks.begin(most_tasks);
     tasks.one(0).walk.found.nodes.push([NodeId::ROOT; 2]);
@@ -136,19 +129,18 @@ pub(crate) fn descend<S: Coordinate>(
             tasks.use_all(used);
             distribute(tasks, used, scratch);
         }
-        let mut limits = scratch.sizes.limits(most_leaf_pairs);
+        let mut limits = scratch.sizes.limits(MOST_LEAF_PAIRS);
         if used < most_tasks {
             limits.stack = ENOUGH_TO_DISTRIBUTE;
         }
-        let view = pair.view();
-        let now = context(refit, needs, &view, limits);
+        let now = context(refit, needs, pair, limits);
         tasks.run(executor, used, &|task, work| task.advance(&now, work));
         // A task that was not run still has its earlier hits, which must not be shown again.
         if executor.is_interrupted() {
             return ControlFlow::Break(());
         }
         scratch.sizes.double_batch();
-        let round = gather(tasks, used, pair.is_one_tree(), scratch);
+        let round = gather(tasks, used, pair.views().is_one_tree(), scratch);
         statistics.node_pairs += round.node_pairs;
         let mut last = scratch.reserve.is_empty() && round.working == 0;
         if are_free {
@@ -159,14 +151,9 @@ pub(crate) fn descend<S: Coordinate>(
             refit_stale(refit, pair, scratch, statistics);
             if last || round.leaves >= limits.leaf_pairs * round.working.max(1) {
                 refit_leaves(refit, pair, tasks, used, scratch, statistics);
-                if tasks.wants_all() && executor.are_many() {
-                    // Order is free here: the same hits are found in any.
-                    rebalance(tasks, used);
-                }
                 while !are_all_tested(tasks, used) {
-                    let limits = scratch.sizes.limits(most_leaf_pairs);
-                    let view = pair.view();
-                    let now = context(refit, needs, &view, limits);
+                    let limits = scratch.sizes.limits(MOST_LEAF_PAIRS);
+                    let now = context(refit, needs, pair, limits);
                     tasks.run(executor, used, &|task, work| task.test_some(&now, work));
                     if executor.is_interrupted() {
                         return ControlFlow::Break(());
@@ -245,11 +232,10 @@ fn test_neighbours<S: Coordinate>(
     scratch: &mut Scratch,
     statistics: &mut Statistics,
 ) -> ControlFlow<()> {
-    let view = pair.view();
-    let Some(neighbours) = left_out(&needs, &view) else {
+    let Some(neighbours) = left_out(&needs, &pair.views()) else {
         return ControlFlow::Continue(());
     };
-    let leaves = pair.sides()[0].tree.leaves.len();
+    let leaves = pair.views().sides()[0].read.tree.leaves.len();
     let each = leaves.div_ceil(most_tasks).max(FEWEST_LEAVES);
     let used = leaves.div_ceil(each);
     for number in 0..used {
@@ -265,7 +251,7 @@ fn test_neighbours<S: Coordinate>(
     };
     while are_left(tasks) && !executor.is_interrupted() {
         let limits = scratch.sizes.limits(usize::MAX);
-        let now = context(refit, needs, &view, limits);
+        let now = context(refit, needs, pair, limits);
         tasks.run(executor, used, &|task, work| {
             task.test_neighbours(&now, work, neighbours);
         });
@@ -278,33 +264,28 @@ fn test_neighbours<S: Coordinate>(
     ControlFlow::Continue(())
 }
 
-fn context<'q, S>(
+fn context<'q, S: Coordinate>(
     refit: Refit<'q>,
     needs: Needs,
-    pair: &'q TreePair<'q, S, &'q BoxSet>,
+    pair: &'q TreePair<S>,
     limits: TaskLimits,
 ) -> Context<'q, S> {
     Context {
         needs,
-        pair,
+        pair: pair.views(),
         instructions: refit.instructions,
         interrupt: refit.executor.interrupt,
         limits,
     }
 }
 
-/// Number of tasks a query is distributed to, and of pairs of leaves from which one tests them.
-fn shares(are_free: bool, wants_all: bool, executor: Executor) -> (usize, usize) {
-    if are_free && wants_all && !executor.are_many() {
+/// Number of tasks that a pair of trees is distributed to.
+fn task_count(are_free: bool, wants_all: bool) -> usize {
+    match (are_free, wants_all) {
         // The hits are the same in any order, and one task has longer lists than many.
-        (1, MOST_LEAF_PAIRS)
-    } else if are_free {
-        (FREE_TASKS, MOST_LEAF_PAIRS)
-    } else if wants_all && executor.are_many() {
-        let for_threads = TASKS_A_THREAD * executor.count();
-        (TASKS.max(for_threads), MOST_LEAF_PAIRS_SHARED)
-    } else {
-        (TASKS, MOST_LEAF_PAIRS)
+        (true, true) => 1,
+        (true, false) => FREE_TASKS,
+        (false, _) => TASKS,
     }
 }
 
@@ -341,26 +322,6 @@ fn distribute<S>(tasks: &mut dyn Tasks<S>, used: usize, scratch: &mut Scratch) {
     }
 }
 
-/// Moves pairs of leaves from tasks that have found many to tasks that have found few.
-fn rebalance<S>(tasks: &mut dyn Tasks<S>, used: usize) {
-    let all: usize = (0..used)
-        .map(|number| tasks.one(number).walk.found.leaves.len())
-        .sum();
-    let each = all.div_ceil(used);
-    let mut more = Vec::new();
-    for number in 0..used {
-        let leaves = &mut tasks.one(number).walk.found.leaves;
-        more.extend_from_slice(leaves.as_slice().get(each..).unwrap_or_default());
-        leaves.truncate(each);
-    }
-    for number in 0..used {
-        let leaves = &mut tasks.one(number).walk.found.leaves;
-        let rest = more.len().saturating_sub(each - leaves.len());
-        leaves.extend(&more[rest..]);
-        more.truncate(rest);
-    }
-}
-
 /// Refits the wide nodes that tasks have asked for.
 fn refit_stale<S: Coordinate>(
     refit: Refit,
@@ -385,7 +346,7 @@ fn refit_leaves<S: Coordinate>(
     scratch: &mut Scratch,
     statistics: &mut Statistics,
 ) {
-    let is_one_tree = pair.is_one_tree();
+    let is_one_tree = pair.views().is_one_tree();
     for number in 0..used {
         let of_task = &mut tasks.one(number).walk.reached;
         for (which, leaves) in of_task.iter_mut().enumerate() {

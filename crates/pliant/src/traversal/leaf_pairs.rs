@@ -46,7 +46,7 @@ impl LeafTests {
         most: usize,
     ) -> Cursor {
         let leaf_test = &leaf_test(context);
-        let [a, b] = context.pair.sides().map(|side| &side.tree.leaves);
+        let [a, b] = context.pair.sides().map(|side| &side.read.tree.leaves);
         let are_triangles = context.needs.triangles();
         self.runs.clear();
         if a.have_blocks() && b.have_blocks() {
@@ -93,13 +93,13 @@ impl LeafTests {
                 let body = OneBody {
                     boxes,
                     quantized: a.boxes.quantized(),
-                    order: a.order,
-                    neighbours: a.tree.neighbours(),
+                    order: a.read.order,
+                    neighbours: a.read.tree.neighbours(),
                 };
                 self.blocks.of_one(instructions, body, pairs);
             } else {
                 let both = [boxes, Boxes::of(b.boxed_tree())];
-                let left_out = context.pair.is_one_body().then_some(a.order);
+                let left_out = context.pair.is_one_body().then_some(a.read.order);
                 self.blocks.of_two(instructions, both, pairs, left_out);
             }
             self.decide(context, work, leaf_test);
@@ -114,7 +114,7 @@ impl LeafTests {
         leaf_pairs: &[LeafPair],
         leaf_test: &LeafTest<S>,
     ) {
-        let [a, b] = context.pair.sides();
+        let [a, b] = context.pair.sides().map(|side| side.read);
         let is_one_body = context.pair.is_one_body();
         for pairs in leaf_pairs.chunks(64 * BLOCK_PAIRS_AT_ONCE) {
             self.blocks.candidates.clear();
@@ -172,7 +172,7 @@ impl LeafTests {
     ) {
         let candidates = &mut self.blocks.candidates;
         for (which, side) in context.pair.sides().into_iter().enumerate() {
-            if let Some(removed) = side.removed {
+            if let Some(removed) = side.read.removed {
                 candidates.retain(|pair| !removed.has(pair[which]));
             }
         }
@@ -182,7 +182,7 @@ impl LeafTests {
 
 /// Context of a test of leaves, for the kind of query.
 fn leaf_test<'q, S: Coordinate>(context: &Context<'q, S>) -> LeafTest<'q, S> {
-    let [a, b] = context.pair.sides();
+    let [a, b] = context.pair.sides().map(|side| side.read);
     LeafTest {
         instructions: context.instructions,
         interrupt: context.interrupt,

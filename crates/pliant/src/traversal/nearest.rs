@@ -8,7 +8,7 @@
 //! Volumes*) descend the same way. Differences: both nodes are opened at once, all their children
 //! are compared with SIMD, and boxes are stale until reached.
 
-use super::tree_pair::{Side, TreePair};
+use super::tree_pair::{TreePair, View};
 use crate::geometry::{Aabb, Shape};
 use crate::held::{self, held};
 use crate::ids::{BlockId, LeafId, NodeId, WideNodeId};
@@ -69,8 +69,8 @@ pub(crate) fn nearest<S: Coordinate>(
             return ControlFlow::Break(());
         }
         statistics.node_pairs += 1;
-        let [a, b] = pair.sides();
-        let children = [a.tree.child(nodes[0]), b.tree.child(nodes[1])];
+        let [a, b] = pair.views().sides();
+        let children = [a.read.tree.child(nodes[0]), b.read.tree.child(nodes[1])];
         if let [Child::Leaf(a), Child::Leaf(b)] = children {
             limit = among_leaves(refit, pair, [a, b], scratch, statistics, limit, measure);
             continue;
@@ -79,7 +79,7 @@ pub(crate) fn nearest<S: Coordinate>(
             let Child::Inner(below) = child else {
                 continue;
             };
-            if !pair.sides()[which].boxes.is_valid(below) {
+            if !pair.views().sides()[which].boxes.is_valid(below) {
                 scratch.reached.insert(below.0);
                 let (reached, lists) = (&mut scratch.reached, &mut scratch.lists);
                 refit.reached(&mut pair.refitted(which), reached, lists, statistics);
@@ -87,7 +87,7 @@ pub(crate) fn nearest<S: Coordinate>(
         }
         push_children(
             refit,
-            pair.sides(),
+            pair.views().sides(),
             nodes,
             children,
             &mut scratch.stack,
@@ -100,7 +100,7 @@ pub(crate) fn nearest<S: Coordinate>(
 /// Pushes the pairs of children with a gap within the limit, the nearest last.
 fn push_children<S: Coordinate>(
     refit: Refit,
-    [a, b]: [&Side<'_, S>; 2],
+    [a, b]: [View<'_, S>; 2],
     [node_a, node_b]: NodePair,
     children: [Child; 2],
     stack: &mut Vec<(f64, NodePair)>,
@@ -117,8 +117,8 @@ fn push_children<S: Coordinate>(
     match children {
         [Child::Inner(below_a), Child::Inner(below_b)] => {
             let lens = [
-                a.tree.wide_node(below_a).len(),
-                b.tree.wide_node(below_b).len(),
+                a.read.tree.wide_node(below_a).len(),
+                b.read.tree.wide_node(below_b).len(),
             ];
             let below = [below_a, below_b];
             let mut mask =
@@ -130,12 +130,12 @@ fn push_children<S: Coordinate>(
             }
         }
         [Child::Inner(below), Child::Leaf(_)] => {
-            for lane in 0..a.tree.wide_node(below).len() {
+            for lane in 0..a.read.tree.wide_node(below).len() {
                 push([NodeId::new(below, lane), node_b]);
             }
         }
         [Child::Leaf(_), Child::Inner(below)] => {
-            for lane in 0..b.tree.wide_node(below).len() {
+            for lane in 0..b.read.tree.wide_node(below).len() {
                 push([node_a, NodeId::new(below, lane)]);
             }
         }
@@ -154,23 +154,32 @@ fn among_leaves<S: Coordinate>(
     mut limit: f64,
     measure: Measure<S>,
 ) -> f64 {
-    let all = pair.sides().map(|side| &side.tree.leaves);
+    let all = pair.views().sides().map(|side| &side.read.tree.leaves);
     scratch.triangles.clear();
     if all.iter().all(|leaves| leaves.have_blocks()) {
         for which in 0..2 {
-            if !pair.sides()[which].boxes.is_leaf_valid(leaves[which]) {
+            if !pair.views().sides()[which]
+                .boxes
+                .is_leaf_valid(leaves[which])
+            {
                 scratch.reached.insert(leaves[which].0);
                 let mut one = pair.refitted(which);
                 refit.reached_leaves(&mut one, &mut scratch.reached, statistics);
             }
         }
-        near_triangles(refit, pair.sides(), leaves, &mut scratch.triangles, limit);
+        near_triangles(
+            refit,
+            pair.views().sides(),
+            leaves,
+            &mut scratch.triangles,
+            limit,
+        );
     } else {
         let triangle = |which: usize| all[which].first_triangle(leaves[which]);
         let [a, b] = [triangle(0), triangle(1)];
         scratch.triangles.push((0.0, [a, b]));
     }
-    let shapes = pair.sides().map(|side| side.source.shape());
+    let shapes = pair.views().sides().map(|side| side.read.source.shape());
     for &(gap, triangles) in &scratch.triangles {
         if gap > limit {
             break;
@@ -184,12 +193,12 @@ fn among_leaves<S: Coordinate>(
 /// Lists the triangles of two leaves whose boxes have a gap within the limit, the nearest first.
 fn near_triangles<S: Coordinate>(
     refit: Refit,
-    sides: [&Side<'_, S>; 2],
+    sides: [View<'_, S>; 2],
     leaves: [LeafId; 2],
     triangles: &mut Vec<(f64, Candidate)>,
     limit: f64,
 ) {
-    let of: [&Leaves; 2] = [&sides[0].tree.leaves, &sides[1].tree.leaves];
+    let of: [&Leaves; 2] = [&sides[0].read.tree.leaves, &sides[1].read.tree.leaves];
     let boxes = [sides[0].boxes.blocks(), sides[1].boxes.blocks()];
     for block_a in of[0].blocks(leaves[0]).map(BlockId) {
         for block_b in of[1].blocks(leaves[1]).map(BlockId) {

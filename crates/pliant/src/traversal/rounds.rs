@@ -9,11 +9,11 @@
 use super::context::{Context, TaskLimits};
 use super::share::{Item, Piece, Share};
 use super::task::{Task, are_free, left_out};
-use super::tree_pair::{TreePair, View};
+use super::tree_pair::Views;
 use crate::kernels::{Coordinate, Instructions};
 use crate::queries::{LeafWork, Needs};
 use crate::threads::{Exchange, Interrupt};
-use crate::tree::{BoxSet, LeafPair, NodePair};
+use crate::tree::{LeafPair, NodePair};
 
 /// Most items of one pair of trees that a task takes at once; the rest can be given to others.
 const AT_ONCE: usize = 512;
@@ -36,30 +36,35 @@ pub(crate) struct Round<'q, S> {
     pub(crate) instructions: Instructions,
     pub(crate) interrupt: &'q Interrupt<'q>,
     pub(crate) exchange: &'q Exchange<'q, Item>,
-    /// Looks up a pair of trees, and the numbers of its trees, by the number of the pair.
-    pub(crate) pair: PairOf<'q, S>,
+    /// Lookup of pairs of trees.
+    pub(crate) pairs: &'q (dyn Pairs<S> + Sync),
 }
 
-/// Lookup of a pair of trees by its number: the trees, and their numbers. None if a tree has no
-/// boxes for the query.
-pub(crate) type PairOf<'q, S> =
-    &'q (dyn Fn(u32) -> Option<(TreePair<'q, S, &'q BoxSet>, [u32; 2])> + Sync);
+/// Pairs of trees by their numbers.
+pub(crate) trait Pairs<S> {
+    /// Shows the views of a pair of trees, and the numbers of these trees.
+    fn show(&self, pair: u32, see: &mut dyn FnMut(Views<S>, [u32; 2]));
+}
 
 /// Number of leaves of a body that are to be tested with themselves and their neighbours, since its
 /// descent leaves these pairs out. Zero if the descent finds them.
-pub(crate) fn leaves_left_out<S: Coordinate>(needs: &Needs, side: View<'_, S>) -> usize {
-    let leaves = side.tree.leaves.len();
-    left_out(needs, &TreePair::One(side)).map_or(0, |_| leaves)
+pub(crate) fn leaves_left_out<S: Coordinate>(needs: &Needs, pair: &Views<S>) -> usize {
+    let [side, _] = pair.sides();
+    left_out(needs, pair).map_or(0, |_| side.read.tree.leaves.len())
 }
 
 impl Task {
     /// Runs this task's share of a round, and items that others give it meanwhile.
-    pub(crate) fn round<S: Coordinate>(&mut self, round: &Round<S>, work: &mut dyn LeafWork<S>) {
+    pub(crate) fn run_round<S: Coordinate>(
+        &mut self,
+        round: &Round<S>,
+        work: &mut dyn LeafWork<S>,
+    ) {
         work.clear();
         round.exchange.begin();
         while !self.share.todo.is_empty() || round.exchange.take(&mut self.share.todo) {
             let todo = &mut self.share.todo;
-            if todo.len() > 1 && round.exchange.is_wanted() {
+            if todo.len() > 1 && round.exchange.is_anyone_idle() {
                 round.exchange.give(todo.drain(..todo.len() / 2));
             }
             let Some(pair) = todo.last().map(|item| item.pair) else {
@@ -68,30 +73,20 @@ impl Task {
             let others = todo.iter().rposition(|item| item.pair != pair);
             let first = others.map_or(0, |last| last + 1);
             let at_once = match todo[todo.len() - 1].piece {
-                Piece::Run(_) => RUNS_AT_ONCE,
+                Piece::Neighbours(_) => RUNS_AT_ONCE,
                 Piece::Nodes(_) | Piece::Leaves(_) => AT_ONCE,
             };
             let first = first.max(todo.len().saturating_sub(at_once));
-            let Some((trees, numbers)) = (round.pair)(pair) else {
-                todo.truncate(first);
-                continue;
-            };
-            let context = &Context {
-                needs: round.needs,
-                pair: &trees,
-                instructions: round.instructions,
-                interrupt: round.interrupt,
-                limits: LIMITS,
-            };
-            self.walk.found.node_pairs = 0;
-            let before = work.candidates();
-            match self.share.todo[first].piece {
-                Piece::Nodes(_) => self.expand_some(context, round, work, first, numbers),
-                Piece::Leaves(_) => self.test_leaves(context, work, first),
-                Piece::Run(_) => self.test_runs(context, work, first),
-            }
-            let looked_at = [self.walk.found.node_pairs, work.candidates() - before];
-            self.share.looked_at.push((pair, looked_at));
+            round.pairs.show(pair, &mut |pair, trees| {
+                let context = &Context {
+                    needs: round.needs,
+                    pair,
+                    instructions: round.instructions,
+                    interrupt: round.interrupt,
+                    limits: LIMITS,
+                };
+                self.process(context, round, work, first, trees);
+            });
             round.exchange.mark();
             if self.share.leaves.len() >= MOST_LEAVES {
                 // They are tested before it goes on.
@@ -107,15 +102,36 @@ impl Task {
         work.hand_over();
     }
 
-    /// Expands the pairs of nodes of one pair of trees in `todo[first..]`, and all pairs of nodes
-    /// below them.
-    fn expand_some<S: Coordinate>(
+    /// Processes the items in `todo[first..]`, which are of one kind and of one pair of trees.
+    fn process<S: Coordinate>(
         &mut self,
         context: &Context<S>,
         round: &Round<S>,
         work: &mut dyn LeafWork<S>,
         first: usize,
-        numbers: [u32; 2],
+        trees: [u32; 2],
+    ) {
+        let Item { pair, piece } = self.share.todo[first];
+        self.walk.found.node_pairs = 0;
+        let before = work.candidates();
+        match piece {
+            Piece::Nodes(_) => self.expand_all_below(context, round, work, first, trees),
+            Piece::Leaves(_) => self.test_leaves(context, work, first),
+            Piece::Neighbours(_) => self.test_runs(context, work, first),
+        }
+        let looked_at = [self.walk.found.node_pairs, work.candidates() - before];
+        self.share.looked_at.push((pair, looked_at));
+    }
+
+    /// Expands the pairs of nodes of one pair of trees in `todo[first..]`, and all pairs of nodes
+    /// below them.
+    fn expand_all_below<S: Coordinate>(
+        &mut self,
+        context: &Context<S>,
+        round: &Round<S>,
+        work: &mut dyn LeafWork<S>,
+        first: usize,
+        trees: [u32; 2],
     ) {
         let pair = self.share.todo[first].pair;
         let is_free = are_free(&context.needs, context.pair.sides());
@@ -154,7 +170,7 @@ impl Task {
                 nodes.clear();
                 break;
             }
-            if stack > 1 && round.exchange.is_wanted() {
+            if stack > 1 && round.exchange.is_anyone_idle() {
                 // The first are the uppermost: most work lies below them.
                 let give = &mut |given: &[NodePair]| {
                     round.exchange.give(given.iter().copied().map(item));
@@ -164,8 +180,8 @@ impl Task {
         }
         let deferred = self.walk.deferred.drain(..);
         self.share.waiting.extend(deferred.map(item));
-        Share::note(&mut self.share.stale, &mut self.walk.stale, numbers);
-        Share::note(&mut self.share.reached, &mut self.walk.reached, numbers);
+        Share::note(&mut self.share.stale, &mut self.walk.stale, trees);
+        Share::note(&mut self.share.reached, &mut self.walk.reached, trees);
     }
 
     /// Tests the pairs of leaves of one pair of trees in `todo[first..]`.
@@ -199,9 +215,10 @@ impl Task {
         work: &mut dyn LeafWork<S>,
         first: usize,
     ) {
-        let neighbours = left_out(&context.needs, context.pair);
+        let neighbours = left_out(&context.needs, &context.pair);
         while self.share.todo.len() > first {
-            let Some(Piece::Run([start, end])) = self.share.todo.pop().map(|item| item.piece)
+            let Some(Piece::Neighbours([start, end])) =
+                self.share.todo.pop().map(|item| item.piece)
             else {
                 continue;
             };

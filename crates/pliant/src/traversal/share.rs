@@ -19,8 +19,8 @@ pub(crate) enum Piece {
     Nodes(NodePair),
     /// Pair of leaves that is to be tested; all boxes in both are valid.
     Leaves(LeafPair),
-    /// Run of leaves, as start and end, that are to be tested with themselves and their neighbours.
-    Run([u32; 2]),
+    /// Leaves, as start and end, that are to be tested with themselves and their neighbours.
+    Neighbours([u32; 2]),
 }
 
 /// Bits of a set of wide nodes or leaves of a tree: 64 numbers from 64 times `number` on.

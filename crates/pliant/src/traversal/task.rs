@@ -7,14 +7,14 @@
 use super::context::Context;
 use super::leaf_pairs::{Cursor, LeafTests};
 use super::share::{Item, Share};
-use super::tree_pair::{TreePair, View};
+use super::tree_pair::{View, Views};
 use super::walk::{Rules, Walk};
 use crate::held::held;
 use crate::kernels::Coordinate;
 use crate::queries::{LeafWork, Needs};
 use crate::statistics::Statistics;
 use crate::threads::{Exchange, Executor};
-use crate::tree::{BoxSet, Neighbours};
+use crate::tree::Neighbours;
 use std::ops::{ControlFlow, Range};
 
 /// Pairs of blocks of triangles that are tested before a task checks whether it has found enough.
@@ -62,8 +62,8 @@ pub(crate) trait Tasks<S> {
 
 /// Whether all boxes that the query reads are known to be valid, since an update completed them.
 /// Tasks then wait for no boxes, and test pairs of leaves as soon as they are found.
-pub(super) fn are_free<S: Coordinate>(needs: &Needs, sides: [&View<'_, S>; 2]) -> bool {
-    let is_complete = |side: &&View<S>| {
+pub(super) fn are_free<S: Coordinate>(needs: &Needs, sides: [View<'_, S>; 2]) -> bool {
+    let is_complete = |side: &View<S>| {
         side.boxes.are_nodes_complete() && (!needs.triangles() || side.boxes.are_leaves_complete())
     };
     sides.iter().all(is_complete)
@@ -74,14 +74,15 @@ pub(super) fn are_free<S: Coordinate>(needs: &Needs, sides: [&View<'_, S>; 2]) -
 /// to them gains nothing.
 pub(super) fn left_out<'p, S: Coordinate>(
     needs: &Needs,
-    pair: &'p TreePair<'p, S, &'p BoxSet>,
+    pair: &Views<'p, S>,
 ) -> Option<&'p Neighbours> {
-    let TreePair::One(side) = pair else {
-        return None;
-    };
-    let are_left_out =
-        needs.triangles() && side.tree.leaves.are_blocks() && are_free(needs, [side; 2]);
-    side.tree.neighbours().filter(|_| are_left_out)
+    let [side, _] = pair.sides();
+    let tree = side.read.tree;
+    let are_left_out = pair.is_one_tree()
+        && needs.triangles()
+        && tree.leaves.are_blocks()
+        && are_free(needs, [side; 2]);
+    tree.neighbours().filter(|_| are_left_out)
 }
 
 /// Number of pairs that are tested before a task checks whether it has found enough.
@@ -161,10 +162,10 @@ impl Task {
             instructions: context.instructions,
             interrupt: context.interrupt,
             limits: context.limits,
-            left_out: left_out(needs, context.pair),
+            left_out: left_out(needs, &context.pair),
             is_one_tree: context.pair.is_one_tree(),
             defers: exchange.is_some(),
-            is_wanted: &|| exchange.is_some_and(Exchange::is_wanted),
+            is_anyone_idle: &|| exchange.is_some_and(Exchange::is_anyone_idle),
             notes_leaves: needs.triangles() && !are_free(needs, sides),
         };
         self.walk.go(trees, &rules);

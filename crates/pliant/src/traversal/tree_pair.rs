@@ -7,14 +7,12 @@ use crate::mesh::Order;
 use crate::queries::{CallerIds, NearElements, Removed};
 use crate::tree::{BoxSet, BoxedTree, Source, Tree};
 use crate::update::Refitted;
-use std::ops::Deref;
 
-/// One tree of a body as the traversal sees it, whose boxes it may refit.
-pub(crate) struct Side<'t, S, B = &'t mut BoxSet> {
+/// Data that a query reads of a tree of a body, beside its boxes.
+pub(crate) struct Read<'t, S> {
     pub(crate) body: BodyId,
     pub(crate) order: &'t Order,
     pub(crate) tree: &'t Tree,
-    pub(crate) boxes: B,
     pub(crate) source: Source<'t, S>,
     /// Positions at the end of the motion, for kinds that look along motions.
     pub(crate) motion: Option<&'t Points<S>>,
@@ -24,43 +22,7 @@ pub(crate) struct Side<'t, S, B = &'t mut BoxSet> {
     pub(crate) removed: Option<Removed<'t>>,
 }
 
-/// Read-only view of a tree of a body, which many tasks share.
-pub(crate) type View<'t, S> = Side<'t, S, &'t BoxSet>;
-
-impl<S: Coordinate> Side<'_, S> {
-    /// Read-only view, for tasks.
-    pub(super) fn view(&self) -> View<'_, S> {
-        View {
-            body: self.body,
-            order: self.order,
-            tree: self.tree,
-            boxes: self.boxes,
-            source: self.source,
-            motion: self.motion,
-            elements: self.elements,
-            removed: self.removed,
-        }
-    }
-
-    /// Mutable boxes with their tree, for refitting.
-    pub(crate) fn refitted(&mut self) -> Refitted<'_, S> {
-        Refitted {
-            tree: self.tree,
-            boxes: self.boxes,
-            source: &self.source,
-        }
-    }
-}
-
-impl<S: Coordinate, B: Deref<Target = BoxSet>> Side<'_, S, B> {
-    /// Tree and boxes alone, for a walk.
-    pub(super) fn boxed_tree(&self) -> BoxedTree<'_> {
-        BoxedTree {
-            tree: self.tree,
-            boxes: &self.boxes,
-        }
-    }
-
+impl<S: Coordinate> Read<'_, S> {
     /// Positions at the end of what boxes hold, for kinds that look along motions.
     pub(super) fn end(&self) -> Option<&Points<S>> {
         self.source.end().map(|end| end.positions)
@@ -73,27 +35,54 @@ impl<S: Coordinate, B: Deref<Target = BoxSet>> Side<'_, S, B> {
     }
 }
 
+/// One tree of a body as the traversal sees it, whose boxes it may refit.
+pub(crate) struct Side<'t, S> {
+    pub(crate) read: Read<'t, S>,
+    pub(crate) boxes: &'t mut BoxSet,
+}
+
+impl<S: Coordinate> Side<'_, S> {
+    /// Mutable boxes with their tree, for refitting.
+    pub(crate) fn refitted(&mut self) -> Refitted<'_, S> {
+        Refitted {
+            tree: self.read.tree,
+            boxes: self.boxes,
+            source: &self.read.source,
+        }
+    }
+
+    /// Read-only view, for tasks.
+    #[inline]
+    fn view(&self) -> View<'_, S> {
+        View {
+            read: &self.read,
+            boxes: self.boxes,
+        }
+    }
+}
+
 /// Two trees, or one twice. The root boxes are valid.
 #[expect(
     clippy::large_enum_variant,
     reason = "there is one at a time, and memory for it would be allocated"
 )]
-pub(crate) enum TreePair<'t, S, B = &'t mut BoxSet> {
+pub(crate) enum TreePair<'t, S> {
     /// One tree with itself, every pair of its triangles once.
     ///
     /// A pair of one node with itself stands for the pairs within it. It expands into its children
     /// with themselves, and into the pairs of different children that overlap.
-    One(Side<'t, S, B>),
+    One(Side<'t, S>),
     /// Two trees whose root boxes overlap: of two bodies, or of one.
-    Two([Side<'t, S, B>; 2]),
+    Two([Side<'t, S>; 2]),
 }
 
 impl<S: Coordinate> TreePair<'_, S> {
-    /// Read-only view, for tasks.
-    pub(super) fn view(&self) -> TreePair<'_, S, &BoxSet> {
+    /// Read-only views of both trees, for tasks.
+    #[inline]
+    pub(crate) fn views(&self) -> Views<'_, S> {
         match self {
-            Self::One(side) => TreePair::One(side.view()),
-            Self::Two([a, b]) => TreePair::Two([a.view(), b.view()]),
+            Self::One(side) => Views::one(side.view()),
+            Self::Two([a, b]) => Views::two([a.view(), b.view()]),
         }
     }
 
@@ -106,41 +95,87 @@ impl<S: Coordinate> TreePair<'_, S> {
     }
 }
 
-impl<'t, S: Coordinate, B: Deref<Target = BoxSet>> TreePair<'t, S, B> {
+/// Read-only view of a tree of a body, which many tasks share.
+pub(crate) struct View<'v, S> {
+    pub(crate) read: &'v Read<'v, S>,
+    pub(crate) boxes: &'v BoxSet,
+}
+
+// Not derived: `S` need not be `Copy`.
+impl<S> Clone for View<'_, S> {
+    #[inline]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S> Copy for View<'_, S> {}
+
+impl<'v, S> View<'v, S> {
+    /// Tree and boxes alone, for a walk.
+    #[inline]
+    pub(super) fn boxed_tree(self) -> BoxedTree<'v> {
+        BoxedTree {
+            tree: self.read.tree,
+            boxes: self.boxes,
+        }
+    }
+}
+
+/// Read-only views of the trees of a pair, both of one tree if it is one with itself.
+pub(crate) struct Views<'v, S> {
+    sides: [View<'v, S>; 2],
+    is_one_tree: bool,
+}
+
+impl<'v, S: Coordinate> Views<'v, S> {
+    /// One tree with itself.
+    #[inline]
+    pub(crate) fn one(side: View<'v, S>) -> Self {
+        Self {
+            sides: [side; 2],
+            is_one_tree: true,
+        }
+    }
+
+    /// Two trees.
+    #[inline]
+    pub(crate) fn two(sides: [View<'v, S>; 2]) -> Self {
+        Self {
+            sides,
+            is_one_tree: false,
+        }
+    }
+
     /// Whether this is one tree with itself.
     #[inline]
     pub(super) fn is_one_tree(&self) -> bool {
-        matches!(self, Self::One(_))
+        self.is_one_tree
     }
 
     /// Whether both sides are of one body, in one tree or two. Triangles that share a vertex of the
     /// mesh are then no hits.
     #[inline]
     pub(super) fn is_one_body(&self) -> bool {
-        let [a, b] = self.sides();
-        a.body == b.body
+        let [a, b] = self.sides;
+        a.read.body == b.read.body
     }
 
     /// Whether the root boxes, which are valid, overlap.
     pub(crate) fn do_overlap(&self) -> bool {
-        let [a, b] = self
-            .sides()
-            .map(|side| side.boxes.nodes().one(NodeId::ROOT));
+        let [a, b] = self.sides.map(|side| side.boxes.nodes().one(NodeId::ROOT));
         a.overlaps(&b)
     }
 
     /// Both sides, or the only one twice.
     #[inline]
-    pub(super) fn sides(&self) -> [&Side<'t, S, B>; 2] {
-        match self {
-            Self::One(side) => [side; 2],
-            Self::Two([a, b]) => [a, b],
-        }
+    pub(super) fn sides(&self) -> [View<'v, S>; 2] {
+        self.sides
     }
 
     /// Caller's numbering of bodies, triangles and edges on both sides.
-    pub(super) fn caller_ids(&self) -> CallerIds<'_> {
-        let [a, b] = self.sides();
+    pub(super) fn caller_ids(&self) -> CallerIds<'v> {
+        let [a, b] = self.sides.map(|side| side.read);
         CallerIds {
             bodies: [a.body, b.body],
             orders: [a.order, b.order],

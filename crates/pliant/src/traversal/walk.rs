@@ -24,7 +24,7 @@ pub(super) struct Rules<'q> {
     /// Whether pairs of nodes that need stale boxes are deferred; otherwise the walk stops at them.
     pub(super) defers: bool,
     /// Whether another task waits for pairs of nodes.
-    pub(super) is_wanted: &'q dyn Fn() -> bool,
+    pub(super) is_anyone_idle: &'q dyn Fn() -> bool,
     /// Whether the leaves that are reached are noted, since their triangles' boxes are still stale.
     pub(super) notes_leaves: bool,
 }
@@ -91,44 +91,51 @@ impl Walk {
             if stack == 0 || stack >= limits.stack || self.found.leaves.len() >= limits.leaf_pairs {
                 return;
             }
-            if rules.interrupt.is_set() || stack > 1 && (rules.is_wanted)() {
+            if rules.interrupt.is_set() || stack > 1 && (rules.is_anyone_idle)() {
                 return;
             }
             self.found.nodes.take_last(limits.batch, &mut self.batch);
-            if !complete && self.asks_for_stale(trees, rules.defers) {
+            if complete {
+                continue;
+            }
+            if rules.defers {
+                self.defer_stale(trees);
+            } else if self.asks_for_stale(trees) {
                 return;
             }
         }
     }
 
-    /// Notes the stale wide nodes below the batch. If `defers`, pairs that need them are deferred
-    /// and the answer is false. Otherwise returns whether there are any.
-    fn asks_for_stale(&mut self, trees: [BoxedTree<'_>; 2], defers: bool) -> bool {
-        let Self {
-            batch,
-            stale,
-            deferred,
-            ..
-        } = self;
-        let mut note = |pair: &NodePair| {
-            let mut is_any = false;
-            for which in 0..2 {
-                let BoxedTree { tree, boxes } = trees[which];
-                if let Child::Inner(below) = tree.child(pair[which])
-                    && !boxes.is_valid(below)
-                {
-                    stale[which].insert(below.0);
-                    is_any = true;
-                }
-            }
-            is_any
-        };
-        if defers {
-            deferred.extend(batch.extract_if(.., |pair| note(pair)));
-            return false;
+    /// Notes the stale wide nodes below the batch, and returns whether there are any.
+    fn asks_for_stale(&mut self, trees: [BoxedTree<'_>; 2]) -> bool {
+        for &pair in &self.batch {
+            note_stale(trees, pair, &mut self.stale);
         }
-        batch.iter().fold(false, |is_any, pair| note(pair) | is_any)
+        !self.stale.iter().all(DirtySet::is_empty)
     }
+
+    /// Notes the stale wide nodes below the batch, and defers the pairs that need them.
+    fn defer_stale(&mut self, trees: [BoxedTree<'_>; 2]) {
+        let Self { batch, stale, .. } = self;
+        let needed = batch.extract_if(.., |&mut pair| note_stale(trees, pair, stale));
+        self.deferred.extend(needed);
+    }
+}
+
+/// Notes the stale wide nodes below a pair, and returns whether there are any.
+#[inline(always)]
+fn note_stale(trees: [BoxedTree<'_>; 2], pair: NodePair, stale: &mut [DirtySet; 2]) -> bool {
+    let mut is_any = false;
+    for which in 0..2 {
+        let BoxedTree { tree, boxes } = trees[which];
+        if let Child::Inner(below) = tree.child(pair[which])
+            && !boxes.is_valid(below)
+        {
+            stale[which].insert(below.0);
+            is_any = true;
+        }
+    }
+    is_any
 }
 
 held!(Walk: batch[], stale, found, reached, deferred[]);

@@ -191,7 +191,7 @@ fn a_query_takes_as_many_threads_as_its_work_pays() {
     };
     // Some microseconds of work: nobody is woken.
     assert_eq!(parts("spheres", 20, 190), []);
-    // From a hundredth of a second on all are.
+    // Much work: eight threads or more.
     for (name, triangles, step) in [("spheres", 20_480, 190), ("cloth", 20_000, 40)] {
         let parts = parts(name, triangles, step);
         let most = parts.iter().map(|&(_, threads)| threads).max();

@@ -9,7 +9,7 @@ use crate::ids::BodyId;
 use crate::kernels::Coordinate;
 use crate::mesh::{Elements, Order};
 use crate::queries::{Groups, NearBoxes, NearElements, Needs, Removed};
-use crate::traversal::Side;
+use crate::traversal::Read;
 use crate::tree::{Source, Tree};
 
 /// All that a query reads of a body but its trees and their boxes.
@@ -49,18 +49,14 @@ impl<'b, S: Coordinate> Queried<'b, S> {
         }
     }
 
-    /// One of its trees with a set of boxes, and the boxes of elements where they are known.
+    /// Data of one of its trees, with the boxes of elements where they are known.
     #[inline]
-    pub(super) fn side<B>(
-        &self,
-        (tree, boxes, near_boxes): (&'b Tree, B, Option<&'b NearBoxes>),
-    ) -> Side<'b, S, B> {
+    pub(super) fn read(&self, tree: &'b Tree, near_boxes: Option<&'b NearBoxes>) -> Read<'b, S> {
         let elements = self.elements.zip(near_boxes);
-        Side {
+        Read {
             body: self.body,
             order: self.order,
             tree,
-            boxes,
             source: self.source,
             motion: self.motion,
             elements: elements.map(|(edges, boxes)| NearElements {

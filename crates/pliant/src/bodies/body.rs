@@ -336,6 +336,11 @@ impl<S: Coordinate> Body<S> {
         self.parts.len()
     }
 
+    /// Trees of all parts.
+    pub(crate) fn trees(&self) -> impl Iterator<Item = &Tree> {
+        self.parts.trees()
+    }
+
     /// Depth, nodes and leaves of all trees.
     pub(crate) fn tree_shape(&self) -> TreeShape {
         self.parts.shape()

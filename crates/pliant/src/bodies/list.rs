@@ -136,6 +136,16 @@ impl<S: Coordinate> Bodies<S> {
         self.list.iter_mut().map(Box::as_mut)
     }
 
+    /// Bodies at some places, which ascend, mutable. O(all bodies).
+    pub(crate) fn some_mut(
+        &mut self,
+        places: impl IntoIterator<Item = Place>,
+    ) -> impl Iterator<Item = &mut Body<S>> {
+        let mut places = places.into_iter().peekable();
+        let all = (0..).map(Place).zip(self.all_mut());
+        all.filter_map(move |(place, body)| places.next_if_eq(&place).map(|_| body))
+    }
+
     /// All bodies in the order of their ids.
     pub(crate) fn in_order(&self) -> impl Iterator<Item = &Body<S>> {
         self.places.iter().map(|&place| self.at(place))

@@ -81,9 +81,13 @@ impl Parts {
         self.others.pop_if(|last| last.triangles().len() <= most)
     }
 
+    pub(crate) fn trees(&self) -> impl Iterator<Item = &Tree> {
+        self.all().map(Part::tree)
+    }
+
     /// Depth, nodes and leaves of all trees together.
     pub(crate) fn shape(&self) -> TreeShape {
-        let trees = || self.all().map(Part::tree);
+        let trees = || self.trees();
         TreeShape {
             depth: trees().map(|tree| tree.depth).max().unwrap_or_default(),
             nodes: trees().map(Tree::node_count).sum(),

@@ -23,13 +23,19 @@ pub(super) struct BodyTree {
     order: Vec<Rank>,
     /// Nodes of each level, from the leaves to the root.
     levels: Vec<Vec<BoxLanes<WIDTH>>>,
-    /// Nodes tested since the last refit, and in the first whole pass after the bodies were
-    /// ordered.
+    /// Nodes tested in the last whole pass, and in the first after the bodies were ordered.
     tested: usize,
     tested_at_first: Option<usize>,
-    /// Scratch: nodes still to be tested, by level and number, and the centres of all boxes.
-    open: Vec<(usize, usize)>,
+    /// Scratch: the centres of all boxes.
     centres: Vec<[f32; 3]>,
+}
+
+/// Scratch of the rows of one thread: nodes still to be tested, by level and number, and how many
+/// were.
+#[derive(Debug, Default)]
+pub(super) struct Descent {
+    open: Vec<(usize, usize)>,
+    pub(super) tested: usize,
 }
 
 impl BodyTree {
@@ -48,7 +54,6 @@ impl BodyTree {
             self.put_in_order(boxes);
             self.tested_at_first = None;
         }
-        self.tested = 0;
 
         // One more level for every factor of eight in the number of bodies.
         let depth = count
@@ -69,21 +74,22 @@ impl BodyTree {
 
     /// Appends the row of a body: pairs with later bodies whose boxes overlap its own, in order.
     pub(super) fn row(
-        &mut self,
+        &self,
         instructions: Instructions,
         body: Rank,
         its_box: &Aabb,
+        Descent { open, tested }: &mut Descent,
         pairs: &mut Vec<Overlap>,
     ) {
         let first = pairs.len();
-        let (order, levels, open) = (&self.order, &self.levels, &mut self.open);
+        let (order, levels) = (&self.order, &self.levels);
         open.clear();
         if let Some(root) = levels.len().checked_sub(1) {
             open.push((root, 0));
         }
         dispatch!(instructions, _i => {
             while let Some((level, node)) = open.pop() {
-                self.tested += 1;
+                *tested += 1;
                 // A level is complete up to its last node, so a missing node has no boxes.
                 let Some(boxes) = levels[level].get(node) else { continue };
                 let mut overlaps = boxes.overlaps(its_box);
@@ -107,9 +113,10 @@ impl BodyTree {
         self.tested
     }
 
-    /// Ends a whole pass: all bodies had their row.
-    pub(super) fn end_of_pass(&mut self) {
-        self.tested_at_first.get_or_insert(self.tested);
+    /// Ends a whole pass, in which all bodies had their row.
+    pub(super) fn end_of_pass(&mut self, tested: usize) {
+        self.tested = tested;
+        self.tested_at_first.get_or_insert(tested);
     }
 
     /// Orders the bodies so that bodies of one node are near each other. O(n log n).
@@ -175,5 +182,7 @@ fn cut_in_halves(bodies: &mut [Rank], child: usize, centres: &[[f32; 3]]) {
     cut_in_halves(high, child, centres);
 }
 
-held!(BodyTree: order[], open[], centres[]; |tree| held::list(&tree.levels)
+held!(Descent: open[]);
+
+held!(BodyTree: order[], centres[]; |tree| held::list(&tree.levels)
     + tree.levels.iter().map(held::list).sum::<usize>());

@@ -9,15 +9,18 @@
 mod body_tree;
 mod brute_force;
 mod overlap;
+mod rows;
 mod sweep_and_prune;
 
 use crate::geometry::Aabb;
 use crate::held::held;
 use crate::ids::Rank;
 use crate::kernels::Instructions;
-use crate::threads::Interrupt;
+use crate::threads::{Executor, Interrupt};
 use body_tree::BodyTree;
 pub(crate) use overlap::Overlap;
+pub(crate) use rows::Keep;
+use rows::Pass;
 use std::ops::ControlFlow;
 use sweep_and_prune::{SweepAndPrune, Unfinished};
 
@@ -35,8 +38,7 @@ pub(crate) struct BroadPhase {
     way: Way,
     sweep: SweepAndPrune,
     tree: BodyTree,
-    /// Body whose row is next.
-    next: Rank,
+    pass: Pass,
 }
 
 /// Algorithm by which a pass finds its pairs.
@@ -54,7 +56,7 @@ impl BroadPhase {
             way: Way::BruteForce,
             sweep: SweepAndPrune::default(),
             tree: BodyTree::default(),
-            next: Rank(0),
+            pass: Pass::default(),
         }
     }
 
@@ -64,7 +66,7 @@ impl BroadPhase {
     /// The bodies are the last pass's without the ones removed by [`BroadPhase::remove`], and then
     /// added bodies at the end.
     pub(crate) fn begin(&mut self, boxes: &[Aabb], interrupt: &Interrupt) {
-        self.next = Rank(0);
+        self.pass.begin();
         self.way = match self.rule {
             crate::BroadPhase::Auto if boxes.len() > MOST_FOR_BRUTE_FORCE => Way::Tree,
             crate::BroadPhase::Auto | crate::BroadPhase::BruteForce => Way::BruteForce,
@@ -86,33 +88,29 @@ impl BroadPhase {
         }
     }
 
-    /// Appends the next pairs of the pass, in order, and returns whether more may follow.
+    /// Appends the next pairs of the pass that are kept, in order, about `most` at once. Returns
+    /// whether more may follow.
     ///
-    /// A call appends all pairs of at least one body. After an interruption it returns true.
+    /// A call looks at all pairs of at least one body. After an interruption it returns true.
     pub(crate) fn next(
         &mut self,
-        instructions: Instructions,
+        threads: (Executor, Instructions),
         boxes: &[Aabb],
+        (most, keep): (usize, Keep),
         pairs: &mut Vec<Overlap>,
     ) -> bool {
         if self.way == Way::Sweep {
-            pairs.extend_from_slice(&self.sweep.pairs);
+            pairs.extend(self.sweep.pairs.iter().filter(|&&pair| keep(pair)));
             return false;
         }
-        let body = self.next;
-        let Some(its_box) = boxes.get(body.index()) else {
-            if self.way == Way::Tree {
-                self.tree.end_of_pass();
-            }
-            return false;
-        };
-        self.next = Rank(body.0 + 1);
-        if self.way == Way::Tree {
-            self.tree.row(instructions, body, its_box, pairs);
-        } else {
-            brute_force::row(boxes, body, pairs);
+        let tree = (self.way == Way::Tree).then_some(&self.tree);
+        let done = self.pass.next(threads, tree, boxes, (most, keep), pairs);
+        if let Some(tested) = done
+            && self.way == Way::Tree
+        {
+            self.tree.end_of_pass(tested);
         }
-        true
+        done.is_none()
     }
 
     /// Removes the body of a rank. The ranks of later bodies move down by one.
@@ -121,11 +119,13 @@ impl BroadPhase {
     }
 }
 
-held!(BroadPhase: sweep, tree);
+held!(BroadPhase: sweep, tree, pass);
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::threads::Threads;
+    use std::num::NonZeroUsize;
 
     struct Lcg(u64);
 
@@ -153,12 +153,21 @@ mod tests {
         crate::BroadPhase::Tree,
     ];
 
-    /// All pairs of a pass.
+    /// All pairs of a pass on one thread.
     fn pairs(broad_phase: &mut BroadPhase, boxes: &[Aabb]) -> Vec<Overlap> {
+        pairs_of(1, broad_phase, boxes)
+    }
+
+    /// All pairs of a pass, some at a time.
+    fn pairs_of(threads: usize, broad_phase: &mut BroadPhase, boxes: &[Aabb]) -> Vec<Overlap> {
+        let threads = &Threads::private(NonZeroUsize::new(threads).unwrap());
+        let interrupt = &Interrupt::default();
+        let executor = Executor { threads, interrupt };
+        broad_phase.begin(boxes, interrupt);
         let mut pairs = Vec::new();
-        broad_phase.begin(boxes, &Interrupt::default());
-        for instructions in Instructions::all().into_iter().cycle() {
-            if !broad_phase.next(instructions, boxes, &mut pairs) {
+        for (instructions, most) in Instructions::all().into_iter().cycle().zip(1..) {
+            let any: (usize, Keep) = (40 * most, &|_| true);
+            if !broad_phase.next((executor, instructions), boxes, any, &mut pairs) {
                 break;
             }
         }
@@ -183,8 +192,10 @@ mod tests {
             for step in 0..30 {
                 let expected = expected(&boxes);
                 for broad_phase in &mut all {
-                    let found = pairs(broad_phase, &boxes);
-                    assert_eq!(found, expected, "seed {seed}, step {step}, {broad_phase:?}");
+                    for threads in [1, 1 + seed as usize % 5] {
+                        let found = pairs_of(threads, broad_phase, &boxes);
+                        assert_eq!(found, expected, "seed {seed}, step {step}, {threads}");
+                    }
                 }
                 match random.below(6) {
                     // All move a little.

@@ -13,7 +13,7 @@ use crate::held::{self, empty, held};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::Options;
 use crate::queries::{Kind, Needs};
-use crate::sort::{Hit, Numbered, Sorter, sort_by_numbers};
+use crate::sort::{Hit, Numbered, Sorter, sort_lists};
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, PerThread, Threads};
 use crate::traversal::{Scratch, Sink, Visitor};
@@ -43,9 +43,10 @@ pub(crate) struct Asked<K: Kind> {
     pub(crate) tasks: TaskList<K>,
     together: Together,
     pub(super) sorter: Sorter<K::Hit>,
-    /// Hits of every thread, for kinds whose hits are more than numbers. The first list holds all
-    /// hits in the end.
+    /// Hits of every thread, for kinds whose hits are more than numbers. With one thread the first
+    /// list holds all hits in the end, otherwise `listed`.
     lists: PerThread<Vec<K::Hit>>,
+    listed: Vec<K::Hit>,
     /// All hits, measured, in sorted order.
     pub(super) measured: Vec<K::Shown>,
 }
@@ -88,12 +89,9 @@ impl<K: Kind> Asked<K> {
         let keep = &|found: &[K::Hit]| self.lists.own().extend_from_slice(found);
         let buffers = (&mut self.tasks, &mut self.together);
         collect(buffers, kind, common, request, &interrupt, keep)?;
-        let mut lists = self.lists.iter_mut();
-        let Some(all) = lists.next() else {
-            return Ok(&[]);
-        };
-        lists.for_each(|list| all.append(list));
-        sort_by_numbers(all);
+        let executor = common.executor(&interrupt);
+        let all = sort_lists(&mut self.lists, executor, &mut self.listed);
+        common.end(&interrupt)?;
         Ok(all)
     }
 
@@ -244,11 +242,11 @@ impl<S: Coordinate> Common<S> {
     ) -> Result<(), Error> {
         let (mut step, bodies, body_pairs) = self.step(needs, interrupt, early);
         let (boxes, origin) = (needs.body_boxes(), step.origin);
-        body_pairs.begin(request.of, bodies, boxes, origin, interrupt)?;
-        let instructions = step.refit.instructions;
+        let threads = (step.refit.executor, step.refit.instructions);
+        body_pairs.begin(request.of, bodies, boxes, origin, threads.0)?;
         // Bodies with themselves are a batch of their own, the first. What is refitted then does
         // not depend on the order in which threads take the others.
-        while let Some(pairs) = body_pairs.next(bodies, instructions, interrupt) {
+        while let Some(pairs) = body_pairs.next(bodies, threads) {
             if meet(&mut step, bodies, pairs).is_break() {
                 break;
             }
@@ -301,7 +299,7 @@ impl<S: Coordinate> Common<S> {
     }
 }
 
-empty!(Asked<K: Kind>: tasks, together, sorter, lists, measured);
+empty!(Asked<K: Kind>: tasks, together, sorter, lists, listed, measured);
 
-held!(Asked<K: Kind>: tasks, together, sorter, measured[];
+held!(Asked<K: Kind>: tasks, together, sorter, listed[], measured[];
     |asked| asked.lists.held_by(held::list));

@@ -5,7 +5,7 @@
 //! not need. If one batch holds all pairs, it is kept until something moves.
 
 use crate::bodies::Bodies;
-use crate::broad_phase::{BroadPhase, Overlap};
+use crate::broad_phase::{BroadPhase, Keep, Overlap};
 use crate::error::Error;
 use crate::geometry::{Aabb, Origin};
 use crate::held::held;
@@ -14,7 +14,7 @@ use crate::kernels::{Coordinate, Instructions};
 use crate::options;
 use crate::queries::BodyBoxes;
 use crate::selection::Selection;
-use crate::threads::Interrupt;
+use crate::threads::{Executor, Grain};
 
 /// Two bodies by their places, or one twice: a body with itself.
 pub(crate) type BodyPair = [Place; 2];
@@ -32,8 +32,8 @@ pub(crate) struct BodyPairs {
     /// loose ones where there are any.
     exact: Vec<Aabb>,
     broad: Vec<Aabb>,
-    /// Scratch: the last row of the broad phase.
-    row: Vec<Overlap>,
+    /// Scratch: pairs of the last rows of the broad phase.
+    rows: Vec<Overlap>,
     /// Last batch of different bodies of the whole world, in the order of ids, the smaller first.
     of_world: Vec<BodyPair>,
     /// Kind of bodies' boxes behind `of_world`, if that holds all pairs and nothing has changed
@@ -68,7 +68,7 @@ impl BodyPairs {
             broad_phase: BroadPhase::new(rule),
             exact: Vec::new(),
             broad: Vec::new(),
-            row: Vec::new(),
+            rows: Vec::new(),
             of_world: Vec::new(),
             holds_for: None,
             named: Vec::new(),
@@ -96,7 +96,7 @@ impl BodyPairs {
         bodies: &Bodies<S>,
         boxes: BodyBoxes,
         origin: Origin,
-        interrupt: &Interrupt,
+        executor: Executor,
     ) -> Result<(), Error> {
         self.named.clear();
         match of {
@@ -124,8 +124,8 @@ impl BodyPairs {
         self.boxes = boxes;
         if and_world && self.holds_for != Some(self.boxes) {
             self.holds_for = None;
-            self.take_boxes(bodies, boxes, origin);
-            self.broad_phase.begin(&self.broad, interrupt);
+            self.take_boxes(bodies, boxes, origin, executor);
+            self.broad_phase.begin(&self.broad, executor.interrupt);
         }
         Ok(())
     }
@@ -135,8 +135,7 @@ impl BodyPairs {
     pub(crate) fn next<S: Coordinate>(
         &mut self,
         bodies: &Bodies<S>,
-        instructions: Instructions,
-        interrupt: &Interrupt,
+        (executor, instructions): (Executor, Instructions),
     ) -> Option<&[BodyPair]> {
         match self.next {
             Next::Named { and_world } => {
@@ -152,13 +151,13 @@ impl BodyPairs {
                 Some(&self.of_world)
             }
             Next::Found { is_first } => {
-                let are_more = self.find(bodies, instructions, interrupt);
+                let are_more = self.find(bodies, (executor, instructions));
                 self.next = if are_more {
                     Next::Found { is_first: false }
                 } else {
                     Next::Nothing
                 };
-                if is_first && !are_more && !interrupt.is_set() {
+                if is_first && !are_more && !executor.is_interrupted() {
                     self.holds_for = Some(self.boxes);
                 }
                 Some(&self.of_world)
@@ -172,41 +171,66 @@ impl BodyPairs {
     fn find<S: Coordinate>(
         &mut self,
         bodies: &Bodies<S>,
-        instructions: Instructions,
-        interrupt: &Interrupt,
+        (executor, instructions): (Executor, Instructions),
     ) -> bool {
-        let (exact, row, of_world) = (&self.exact, &mut self.row, &mut self.of_world);
-        let that_meet = |&pair: &Overlap| {
+        let Self {
+            exact,
+            rows,
+            of_world,
+            broad_phase,
+            broad,
+            ..
+        } = self;
+        let places = |pair: Overlap| pair.map(|rank| bodies.places()[rank.index()]);
+        let keep = |pair: Overlap| {
             let [exact_a, exact_b] = pair.map(|rank| &exact[rank.index()]);
-            let places = pair.map(|rank| bodies.places()[rank.index()]);
-            let [a, b] = places.map(|place| bodies.at(place));
-            (exact_a.overlaps(exact_b) && bodies.do_meet(a, b)).then_some(places)
+            let [a, b] = places(pair).map(|place| bodies.at(place));
+            exact_a.overlaps(exact_b) && bodies.do_meet(a, b)
         };
         let most = BATCH.max(PAIRS_A_BODY * bodies.len());
         of_world.clear();
-        while of_world.len() < most && !interrupt.is_set() {
-            row.clear();
-            let are_more = self.broad_phase.next(instructions, &self.broad, row);
-            of_world.extend(row.iter().filter_map(that_meet));
+        while of_world.len() < most && !executor.is_interrupted() {
+            rows.clear();
+            let more = (most - of_world.len(), &keep as Keep);
+            let are_more = broad_phase.next((executor, instructions), broad, more, rows);
+            of_world.extend(rows.iter().map(|&pair| places(pair)));
             if !are_more {
                 return false;
             }
         }
-        !interrupt.is_set()
+        !executor.is_interrupted()
     }
 
     /// Copies the present boxes of all bodies.
-    fn take_boxes<S: Coordinate>(&mut self, bodies: &Bodies<S>, boxes: BodyBoxes, origin: Origin) {
+    fn take_boxes<S: Coordinate>(
+        &mut self,
+        bodies: &Bodies<S>,
+        boxes: BodyBoxes,
+        origin: Origin,
+        executor: Executor,
+    ) {
         let Self { exact, broad, .. } = self;
-        exact.clear();
-        let list = bodies.in_order();
-        exact.extend(list.map(|body| body.box_for(boxes, origin)));
-        broad.clear();
-        broad.extend(bodies.in_order().zip(&*exact).map(|(body, &exact)| {
-            let loose = body.loose_box(origin);
-            loose.map_or(exact, |loose| boxes.of(loose))
-        }));
+        let ranks = bodies.places();
+        for list in [&mut *exact, &mut *broad] {
+            list.resize(ranks.len(), Aabb::EMPTY);
+        }
+        let size = Grain::BOXES.items;
+        let lists = exact.chunks_mut(size).zip(broad.chunks_mut(size));
+        let jobs = ranks.chunks(size).zip(lists);
+        executor.run_each(
+            jobs,
+            Grain::BOXES,
+            |(places, (exact, broad))| {
+                for ((&place, exact), broad) in places.iter().zip(&mut **exact).zip(&mut **broad) {
+                    let body = bodies.at(place);
+                    *exact = body.box_for(boxes, origin);
+                    let loose = body.loose_box(origin);
+                    *broad = loose.map_or(*exact, |loose| boxes.of(loose));
+                }
+            },
+            |_| {},
+        );
     }
 }
 
-held!(BodyPairs: exact[], broad[], row[], of_world[], named[], broad_phase);
+held!(BodyPairs: exact[], broad[], rows[], of_world[], named[], broad_phase);

@@ -22,7 +22,6 @@ use crate::queries::{
 use crate::selection::Selection;
 use crate::statistics::Statistics;
 use pliant_exact::motion::Grid;
-use std::ops::ControlFlow;
 
 /// Factor by which each searched part of a motion is longer than the last.
 const LONGER: f64 = 4.0;
@@ -224,19 +223,10 @@ where
         time: f64,
         distance: f64,
     ) -> Result<bool, Error> {
-        let mut is_free = true;
-        let kind = impacts(Reach::To(time), distance);
-        self.visit(&kind, common, request, &mut |found| {
-            let counts = |&impact: &_| distance > 0.0 || Into::<Impact>::into(impact).high() > 0.0;
-            match found.iter().position(counts) {
-                Some(place) => {
-                    is_free = false;
-                    ControlFlow::Break(place)
-                }
-                None => ControlFlow::Continue(()),
-            }
-        })?;
-        Ok(is_free)
+        let any = Earliest::new(distance == 0.0, 1.0);
+        let kind = impacts(Reach::To(time), distance).earlier_than(any);
+        self.search(&kind, common, request)?;
+        Ok(kind.into_earliest().known() > 1.0)
     }
 }
 

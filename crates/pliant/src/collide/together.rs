@@ -10,40 +10,46 @@ use super::body_pairs::BodyPair;
 use super::step::{SAYS_NOTHING, Step};
 use crate::bodies::{Bodies, Body, Work};
 use crate::geometry::Origin;
-use crate::held::{Held, held};
+use crate::held::held;
 use crate::ids::{NodeId, Place};
 use crate::kernels::Coordinate;
 use crate::queries::Needs;
 use crate::statistics::Statistics;
-use crate::threads::{Exchange, Executor, Grain, PerThread, locked};
-use crate::traversal::{
-    Item, Pairs, Piece, Round, Scratch, Tasks, View, Views, Word, leaves_left_out,
-};
-use crate::update::{DirtySet, Partner, Refit, Refitted};
+use crate::threads::{Exchange, Executor, Grain, PerThread};
+use crate::traversal::{Item, Pairs, Piece, Round, Scratch, Tasks, View, Views};
+use crate::update::{DirtySet, DirtySets, Partner, Refit, Refitted};
 use std::iter;
 use std::ops::ControlFlow;
-use std::sync::{Mutex, PoisonError};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Pairs of leaves that are tested before tasks go on. A task stops at twice as many, which bounds
 /// memory.
 const MANY_LEAVES: usize = 1 << 15;
+/// Most pairs of bodies whose triangles are counted, to see what a query is worth.
+const SAMPLE: usize = 1024;
+/// Bodies whose trees a job looks up.
+const BODIES: usize = 64;
 /// Leaves in a run that is tested with its neighbours: the least piece that threads share.
-const RUN: usize = 64;
+const RUN: u32 = 64;
 
 /// Buffers, kept from query to query, and the amount of work of the last query.
 #[derive(Debug, Default)]
 pub(crate) struct Together {
-    /// Trees, each a part of a body, sorted by the places of the bodies.
+    /// Partners of each body, by its place; none if the body takes no part.
+    partners: Vec<Option<Partner>>,
+    /// Trees of all bodies that take part, each a part of a body, sorted by the places of these.
     trees: Vec<(Place, usize)>,
+    /// Number of the first tree of each body, by its place; the first behind them at the end.
+    first_trees: Vec<u32>,
+    /// Bodies that are to be prepared or refitted, by their places, and how much that is.
+    concerned: Vec<(Place, usize)>,
     pairs: Vec<Pair>,
     items: Items,
     /// Stale wide nodes that were reached, by tree. `reached` holds leaves likewise.
-    stale: Vec<Mutex<DirtySet>>,
-    reached: Vec<Mutex<DirtySet>>,
+    stale: DirtySets,
+    reached: DirtySets,
     /// Counters by pair of bodies: pairs of nodes, and candidates.
-    looked_at: Vec<[u64; 2]>,
-    /// Partners of each body, by its place; none if the body takes no part.
-    partners: Vec<Option<Partner>>,
+    looked_at: Vec<[AtomicU64; 2]>,
     helpers: PerThread<RefitBuffers>,
     /// Triangles of all pairs of bodies of the query so far.
     triangles: usize,
@@ -77,7 +83,7 @@ struct RefitBuffers {
 }
 
 /// Action on a body and its place.
-type EachBody<'e, S> = &'e (dyn Fn(&mut Step, usize, &mut Body<S>) -> ControlFlow<()> + Sync);
+type EachBody<'e, S> = &'e (dyn Fn(&mut Step, Place, &mut Body<S>) -> ControlFlow<()> + Sync);
 
 impl Together {
     /// A query begins.
@@ -96,9 +102,11 @@ impl Together {
         if !executor.are_many() {
             return false;
         }
-        let places = pairs.as_flattened().iter();
+        // Some of many pairs stand for all.
+        let every = pairs.len().div_ceil(SAMPLE).max(1);
+        let places = pairs.iter().step_by(every).flatten();
         let counts = places.map(|&place| bodies.at(place).triangle_count());
-        let triangles: usize = counts.sum();
+        let triangles = every * counts.sum::<usize>();
         self.triangles += triangles;
         let a_triangle = Grain::TRIANGLES.time(1);
         let rate = self.rate.unwrap_or(1024 * a_triangle);
@@ -145,9 +153,11 @@ impl Together {
                 self.round(step, bodies, tasks, Grain::LEAF_PAIRS.time(leaves))?;
             }
         }
-        self.list_neighbours(step, bodies);
-        let neighbours = Grain::LEAF_PAIRS.time(5 * RUN * self.items.now.len());
+        self.list_neighbours(&step.needs);
+        let neighbours = Grain::LEAF_PAIRS.time(5 * RUN as usize * self.items.now.len());
         self.round(step, bodies, tasks, neighbours)?;
+        let looked_at = self.looked_at.iter_mut();
+        step.statistics.node_pairs += looked_at.map(|[pairs, _]| *pairs.get_mut()).sum::<u64>();
         if step.needs.triangles() {
             self.tell_bodies(bodies, pairs);
         }
@@ -162,7 +172,13 @@ impl Together {
         pairs: &[BodyPair],
     ) -> ControlFlow<()> {
         let Self {
-            partners, trees, ..
+            partners,
+            trees,
+            first_trees,
+            concerned,
+            stale,
+            reached,
+            ..
         } = self;
         partners.clear();
         for &[a, b] in pairs {
@@ -177,35 +193,49 @@ impl Together {
                 partners[place.index()] = Some(partner);
             }
         }
-        trees.clear();
-        let (mut triangles, mut count) = (0, 0);
-        for (place, body) in bodies.all().enumerate() {
-            // All bodies, so that trees keep their numbers, and sets their lengths.
-            trees.extend((0..body.part_count()).map(|part| (Place(place as u32), part)));
-            if partners.get(place).copied().flatten().is_some() {
-                triangles += body.triangle_count();
-                count += 1;
+        concerned.clear();
+        let places = (0..).map(Place).zip(&*partners);
+        let places = places.filter_map(|(place, partner)| partner.map(|_| (place, 0)));
+        concerned.extend(places);
+        // Many bodies are in no cache, so that threads look them up together.
+        let chunks = concerned.chunks_mut(BODIES);
+        let mut jobs: Vec<_> = chunks.map(|bodies| (bodies, Vec::new())).collect();
+        let nanoseconds = Grain::BODIES.time(BODIES * jobs.len());
+        let executor = step.refit.executor;
+        executor.run(&mut jobs, nanoseconds, |_, (concerned, trees)| {
+            for (place, triangles) in &mut **concerned {
+                let body = bodies.at(*place);
+                *triangles = body.triangle_count();
+                trees.extend(body.trees().enumerate().map(|(part, tree)| {
+                    ((*place, part), [tree.wide_nodes.len(), tree.leaves.len()])
+                }));
             }
+        });
+        trees.clear();
+        first_trees.clear();
+        // An interrupted query leaves them as they are.
+        stale.clear();
+        reached.clear();
+        for &((place, part), [wide_nodes, leaves]) in jobs.iter().flat_map(|(_, trees)| trees) {
+            let before = first_trees.len().max(place.index() + 1);
+            first_trees.resize(before, trees.len() as u32);
+            trees.push((place, part));
+            stale.push(wide_nodes);
+            reached.push(leaves);
         }
-        for sets in [&mut self.stale, &mut self.reached] {
-            // An interrupted query leaves them as they are.
-            sets.iter().for_each(|set| locked(set).clear());
-            sets.resize_with(sets.len().max(trees.len()), Mutex::default);
-        }
+        first_trees.push(trees.len() as u32);
         for helper in self.helpers.iter_mut() {
             // A caller's question that panicked leaves them as they are.
             helper.scratch.begin(true);
             helper.statistics = Statistics::default();
         }
-        let (partners, helpers) = (&self.partners, &mut self.helpers);
-        let partner = |place: usize| partners.get(place).copied().flatten();
-        let takes = Grain::TRIANGLES.time(triangles);
+        let (concerned, helpers) = (&self.concerned, &mut self.helpers);
         each_body(
             step,
             bodies,
             helpers,
-            (count, takes),
-            &|step, place, body| match partner(place) {
+            (concerned, Grain::TRIANGLES),
+            &|step, place, body| match partners[place.index()] {
                 Some(partner) => step.prepare(body, partner),
                 None => ControlFlow::Continue(()),
             },
@@ -216,6 +246,7 @@ impl Together {
     fn list_pairs<S: Coordinate>(&mut self, step: &Step, bodies: &Bodies<S>, pairs: &[BodyPair]) {
         let Self {
             trees,
+            first_trees,
             pairs: listed,
             items,
             looked_at,
@@ -223,13 +254,13 @@ impl Together {
         } = self;
         listed.clear();
         looked_at.clear();
-        looked_at.resize(pairs.len(), [0; 2]);
+        looked_at.resize_with(pairs.len(), Default::default);
         for list in [&mut items.nodes, &mut items.leaves, &mut items.now] {
             list.clear();
         }
         let trees_of = |place: Place| {
-            let first = trees.partition_point(|&(at, _)| at.index() < place.index());
-            first..first + bodies.at(place).part_count()
+            let [first, end] = [place.index(), place.index() + 1];
+            first_trees[first] as usize..first_trees[end] as usize
         };
         let do_overlap = |both: [usize; 2]| {
             let mut do_overlap = false;
@@ -264,22 +295,16 @@ impl Together {
     }
 
     /// Lists runs of leaves of bodies that meet themselves, where the descent left out neighbours.
-    fn list_neighbours<S: Coordinate>(&mut self, step: &Step, bodies: &Bodies<S>) {
-        for (number, pair) in (0..).zip(&self.pairs) {
-            let tree = self.trees[pair.trees[0] as usize];
-            if pair.trees[0] != pair.trees[1] {
-                continue;
+    fn list_neighbours(&mut self, needs: &Needs) {
+        for (number, &Pair { trees: [a, b], .. }) in (0..).zip(&self.pairs) {
+            if a == b && needs.triangles() {
+                // A word of 64 leaves is a run.
+                let runs = 0..self.reached.words(a as usize) as u32;
+                self.items.now.extend(runs.map(|run| Item {
+                    pair: number,
+                    piece: Piece::Neighbours([run, run + 1].map(|run| run * RUN)),
+                }));
             }
-            let mut leaves = 0;
-            let count = &mut |pair: Views<S>| leaves = leaves_left_out(&step.needs, &pair);
-            show_trees(bodies, (&step.needs, step.origin), [tree; 2], count);
-            let runs = (0..leaves).step_by(RUN);
-            self.items.now.extend(runs.map(|start| Item {
-                pair: number,
-                piece: Piece::Neighbours(
-                    [start, (start + RUN).min(leaves)].map(|leaf| leaf as u32),
-                ),
-            }));
         }
     }
 
@@ -312,6 +337,7 @@ impl Together {
             origin: step.origin,
             trees,
             pairs,
+            looked_at: &self.looked_at,
         };
         let exchange = &Exchange::new(executor, used);
         let round = Round {
@@ -320,6 +346,8 @@ impl Together {
             interrupt: executor.interrupt,
             exchange,
             pairs: lookup,
+            stale: &self.stale,
+            reached: &self.reached,
         };
         tasks.run(executor, used, &|task, work| task.run_round(&round, work));
         if executor.is_interrupted() {
@@ -329,24 +357,6 @@ impl Together {
             let share = &mut tasks.one(number).share;
             items.nodes.append(&mut share.waiting);
             items.leaves.append(&mut share.leaves);
-            let both = [
-                (&mut self.stale, &mut share.stale),
-                (&mut self.reached, &mut share.reached),
-            ];
-            for (sets, words) in both {
-                for Word { tree, number, bits } in words.drain(..) {
-                    let set = sets[tree as usize].get_mut();
-                    let set = set.unwrap_or_else(PoisonError::into_inner);
-                    set.insert_bits(number as usize, bits);
-                }
-            }
-            for (pair, looked_at) in share.looked_at.drain(..) {
-                let sum = &mut self.looked_at[pairs[pair as usize].of as usize];
-                for (sum, count) in sum.iter_mut().zip(looked_at) {
-                    *sum += count;
-                }
-                step.statistics.node_pairs += looked_at[0];
-            }
         }
         tasks.show(used, step.statistics)
     }
@@ -357,17 +367,10 @@ impl Together {
         step: &mut Step,
         bodies: &mut Bodies<S>,
     ) -> ControlFlow<()> {
-        let sets = (&self.trees[..], &self.stale[..]);
-        refit(
-            step,
-            bodies,
-            sets,
-            &mut self.helpers,
-            &|step, one, stale| {
-                let lists = &mut step.scratch.wide_nodes;
-                step.refit.reached(one, stale, lists, step.statistics);
-            },
-        )
+        self.refit(step, bodies, |it| &it.stale, &|step, one, stale| {
+            let lists = &mut step.scratch.wide_nodes;
+            step.refit.reached(one, stale, lists, step.statistics);
+        })
     }
 
     /// Refits the boxes of the triangles in leaves that were reached.
@@ -376,21 +379,58 @@ impl Together {
         step: &mut Step,
         bodies: &mut Bodies<S>,
     ) -> ControlFlow<()> {
-        let sets = (&self.trees[..], &self.reached[..]);
-        refit(
+        self.refit(step, bodies, |it| &it.reached, &|step, one, reached| {
+            step.refit.reached_leaves(one, reached, step.statistics);
+        })
+    }
+
+    /// Refits the boxes that were reached, in all trees.
+    fn refit<S: Coordinate>(
+        &mut self,
+        step: &mut Step,
+        bodies: &mut Bodies<S>,
+        sets: impl Fn(&Self) -> &DirtySets,
+        make: MakeBoxes<S>,
+    ) -> ControlFlow<()> {
+        let mut concerned = std::mem::take(&mut self.concerned);
+        concerned.clear();
+        for (tree, &(place, _)) in self.trees.iter().enumerate() {
+            let count = sets(self).count(tree);
+            match concerned.last_mut() {
+                _ if count == 0 => {}
+                Some((last, sum)) if *last == place => *sum += count,
+                _ => concerned.push((place, count)),
+            }
+        }
+        let mut helpers = std::mem::take(&mut self.helpers);
+        let (trees, first_trees, sets) = (&self.trees, &self.first_trees, sets(self));
+        let done = each_body(
             step,
             bodies,
-            sets,
-            &mut self.helpers,
-            &|step, one, reached| {
-                step.refit.reached_leaves(one, reached, step.statistics);
+            &mut helpers,
+            (&concerned, Grain::LEAVES),
+            &|step, place, body| {
+                for tree in first_trees[place.index()]..first_trees[place.index() + 1] {
+                    let mut set = std::mem::take(&mut step.scratch.reached[0]);
+                    sets.take(tree as usize, &mut set);
+                    if !set.is_empty() {
+                        let (_, part) = trees[tree as usize];
+                        let mut side = body.side(&step.needs, step.origin, part);
+                        make(step, &mut side.refitted(), &mut set);
+                    }
+                    step.scratch.reached[0] = set;
+                }
+                ControlFlow::Continue(())
             },
-        )
+        );
+        (self.concerned, self.helpers) = (concerned, helpers);
+        done
     }
 
     /// Passes counters to bodies, which measure the decay of their trees by them.
-    fn tell_bodies<S: Coordinate>(&self, bodies: &mut Bodies<S>, pairs: &[BodyPair]) {
-        for (&[a, b], &[node_pairs, candidates]) in pairs.iter().zip(&self.looked_at) {
+    fn tell_bodies<S: Coordinate>(&mut self, bodies: &mut Bodies<S>, pairs: &[BodyPair]) {
+        for (&[a, b], looked_at) in pairs.iter().zip(&mut self.looked_at) {
+            let [node_pairs, candidates] = looked_at.each_mut().map(|count| *count.get_mut());
             if node_pairs < SAYS_NOTHING {
                 continue;
             }
@@ -415,6 +455,7 @@ struct Lookup<'q, S> {
     origin: Origin,
     trees: &'q [(Place, usize)],
     pairs: &'q [Pair],
+    looked_at: &'q [[AtomicU64; 2]],
 }
 
 impl<S: Coordinate> Pairs<S> for Lookup<'_, S> {
@@ -423,6 +464,13 @@ impl<S: Coordinate> Pairs<S> for Lookup<'_, S> {
         let trees = numbers.map(|tree| self.trees[tree as usize]);
         let queried = (&self.needs, self.origin);
         show_trees(self.bodies, queried, trees, &mut |pair| see(pair, numbers));
+    }
+
+    fn count(&self, pair: u32, looked_at: [u64; 2]) {
+        let of = self.pairs[pair as usize].of;
+        for (sum, count) in self.looked_at[of as usize].iter().zip(looked_at) {
+            sum.fetch_add(count, Ordering::Relaxed);
+        }
     }
 }
 
@@ -453,88 +501,44 @@ fn show_trees<S: Coordinate>(
 /// Refits boxes of a tree, which were reached.
 type MakeBoxes<'e, S> = &'e (dyn Fn(&mut Step, &mut Refitted<S>, &mut DirtySet) + Sync);
 
-/// Refits the boxes that were reached, in all trees.
-fn refit<S: Coordinate>(
-    step: &mut Step,
-    bodies: &mut Bodies<S>,
-    (trees, sets): (&[(Place, usize)], &[Mutex<DirtySet>]),
-    helpers: &mut PerThread<RefitBuffers>,
-    make: MakeBoxes<S>,
-) -> ControlFlow<()> {
-    let of_trees = || trees.iter().zip(sets);
-    let (mut count, mut reached) = (0, 0);
-    for (_, set) in of_trees() {
-        let set = locked(set);
-        count += usize::from(!set.is_empty());
-        reached += set.count();
-    }
-    if count == 0 {
-        return ControlFlow::Continue(());
-    }
-    let takes = Grain::LEAVES.time(reached);
-    each_body(
-        step,
-        bodies,
-        helpers,
-        (count, takes),
-        &|step, place, body| {
-            let first = trees.partition_point(|&(at, _)| at.index() < place);
-            let own = of_trees().skip(first);
-            for (&(_, part), set) in own.take_while(|&(&(at, _), _)| at.index() == place) {
-                let set = &mut *locked(set);
-                if !set.is_empty() {
-                    let mut side = body.side(&step.needs, step.origin, part);
-                    make(step, &mut side.refitted(), set);
-                }
-            }
-            ControlFlow::Continue(())
-        },
-    )
-}
-
-/// Runs an action on every body. Many bodies are processed in parallel, each on one thread; few one
-/// by one, with all threads. It concerns `count` bodies, and takes about `nanoseconds`.
+/// Runs an action on some bodies, given by their places and by how much it is, in items of a grain.
 fn each_body<S: Coordinate>(
     step: &mut Step,
     bodies: &mut Bodies<S>,
     helpers: &mut PerThread<RefitBuffers>,
-    (count, nanoseconds): (usize, u64),
+    (concerned, grain): (&[(Place, usize)], Grain),
     do_one: EachBody<S>,
 ) -> ControlFlow<()> {
     let executor = step.refit.executor;
-    let threads = executor.threads_for(nanoseconds);
-    if threads > 1 && count >= threads {
-        helpers.for_threads(executor.count());
-        let (needs, refit, origin) = (step.needs, step.refit, step.origin);
-        let helping = &*helpers;
-        let mut jobs: Vec<_> = bodies.all_mut().enumerate().collect();
-        executor.run(&mut jobs, nanoseconds, |_, (place, body)| {
-            // Not locked while the job is done: a lent pool may have threads of one number.
-            let mut own = std::mem::take(&mut *helping.own());
-            let RefitBuffers {
-                scratch,
-                statistics,
-            } = &mut own;
-            let executor = executor.alone();
-            let mut step = Step {
-                needs,
-                refit: Refit { executor, ..refit },
-                origin,
-                scratch,
-                statistics,
-            };
-            let _ = do_one(&mut step, *place, body);
-            let kept = &mut *helping.own();
-            kept.statistics += own.statistics;
-            kept.scratch = own.scratch;
-        });
-        for helper in helpers.iter_mut() {
-            *step.statistics += std::mem::take(&mut helper.statistics);
-        }
-    } else {
-        for (place, body) in bodies.all_mut().enumerate() {
-            do_one(step, place, body)?;
-        }
+    helpers.for_threads(executor.count());
+    let (needs, refit, origin) = (step.needs, step.refit, step.origin);
+    let helping = &*helpers;
+    let all = bodies.some_mut(concerned.iter().map(|&(place, _)| place));
+    let mut jobs: Vec<_> = concerned.iter().zip(all).collect();
+    let items = concerned.iter().map(|&(_, items)| items).sum();
+    let nanoseconds = grain.time(items) + Grain::BODIES.time(jobs.len());
+    let items = |&(&(_, items), _): &(&(Place, usize), &mut Body<S>)| items;
+    executor.run_uneven(&mut jobs, items, nanoseconds, |(of, body), executor| {
+        // Not locked while the job is done: a lent pool may have threads of one number.
+        let mut own = std::mem::take(&mut *helping.own());
+        let RefitBuffers {
+            scratch,
+            statistics,
+        } = &mut own;
+        let mut step = Step {
+            needs,
+            refit: Refit { executor, ..refit },
+            origin,
+            scratch,
+            statistics,
+        };
+        let _ = do_one(&mut step, of.0, body);
+        let kept = &mut *helping.own();
+        kept.statistics += own.statistics;
+        kept.scratch = own.scratch;
+    });
+    for helper in helpers.iter_mut() {
+        *step.statistics += std::mem::take(&mut helper.statistics);
     }
     if executor.is_interrupted() {
         return ControlFlow::Break(());
@@ -542,12 +546,7 @@ fn each_body<S: Coordinate>(
     ControlFlow::Continue(())
 }
 
-held!(Together: trees[], pairs[], items, looked_at[], partners[];
-    |it| it.helpers.held_by(|helper| helper.scratch.held())
-        + [&it.stale, &it.reached].into_iter().map(sets_held).sum::<usize>());
+held!(Together: partners[], trees[], first_trees[], concerned[], pairs[], items, stale, reached,
+    looked_at[]; |it| it.helpers.held_by(|helper| helper.scratch.held()));
 
 held!(Items: nodes[], leaves[], now[]);
-
-fn sets_held(sets: &Vec<Mutex<DirtySet>>) -> usize {
-    crate::held::list(sets) + sets.iter().map(|set| locked(set).held()).sum::<usize>()
-}

@@ -8,6 +8,7 @@
 mod buckets;
 mod hit;
 mod keys;
+mod many_lists;
 mod packing;
 
 use crate::held::{Held, empty, held};
@@ -16,6 +17,7 @@ use crate::threads::{Executor, PerThread};
 use buckets::{Buckets, lengthen};
 pub(crate) use hit::{Hit, Numbered};
 use keys::{Keys, NOTHING, both};
+pub(crate) use many_lists::sort_lists;
 use packing::Packing;
 
 /// Hits of all threads, and the scratch memory to sort them.
@@ -78,7 +80,7 @@ impl<T: Hit> Sorter<T> {
 }
 
 /// Sorts hits of any kind by comparing their numbers. O(n log n).
-pub(crate) fn sort_by_numbers<T: Numbered>(hits: &mut [T]) {
+fn sort_by_numbers<T: Numbered>(hits: &mut [T]) {
     hits.sort_unstable_by_key(T::numbers);
 }
 

@@ -31,11 +31,19 @@ impl Grain {
     pub(crate) const RUNS: Self = Self::of(256, 8_000);
     /// Close pairs that are measured.
     pub(crate) const MEASURED: Self = Self::of(1_024, 30_000);
+    /// Hits that are more than their numbers, in either of the two passes of their sort.
+    pub(crate) const LISTED: Self = Self::of(512, 20_000);
     /// Keys of hits, in either of the two passes of their sort.
     pub(crate) const KEYS: Self = Self::of(1_024, 6_000);
 
     /// Triangles of bodies that a query prepares, or that meet, if nothing more is known.
     pub(crate) const TRIANGLES: Self = Self::of(1_024, 10_000);
+    /// Bodies, beside what is done with their triangles or points.
+    pub(crate) const BODIES: Self = Self::of(1, 300);
+    /// Bodies whose boxes are copied.
+    pub(crate) const BOXES: Self = Self::of(64, 10_000);
+    /// Bodies whose pairs the broad phase finds.
+    pub(crate) const ROWS: Self = Self::of(32, 16_000);
     /// Pairs of nodes that waited for boxes, with all that they become.
     pub(crate) const NODE_PAIRS: Self = Self::of(64, 64_000);
     /// Pairs of leaves that are tested.

@@ -21,7 +21,6 @@ pub(crate) use exchange::Exchange;
 pub(crate) use grain::Grain;
 use grain::threads_for;
 pub(crate) use interrupt::{Interrupt, Question};
-pub(crate) use lock::locked;
 pub(crate) use per_thread::PerThread;
 use pool::Helpers;
 use record::Recorder;
@@ -178,6 +177,29 @@ impl Executor<'_> {
         work: impl Fn(usize, &mut J) + Sync,
     ) {
         self.run_any(jobs, nanoseconds, &work);
+    }
+
+    /// Runs jobs of very different sizes, which together take about `nanoseconds`. A large one is
+    /// run on all threads, one after the other; the small ones side by side, each on one thread.
+    pub(crate) fn run_uneven<J: Send>(
+        &self,
+        jobs: &mut [J],
+        size: impl Fn(&J) -> usize,
+        nanoseconds: u64,
+        work: impl Fn(&mut J, Executor) + Sync,
+    ) {
+        let all: usize = jobs.iter().map(&size).sum();
+        let threads = self.threads_for(nanoseconds);
+        let is_large = |job: &J| size(job).saturating_mul(threads) > all;
+        let mut small = Vec::with_capacity(jobs.len());
+        for job in jobs {
+            if !is_large(job) {
+                small.push(job);
+            } else if !self.is_interrupted() {
+                work(job, *self);
+            }
+        }
+        self.run(&mut small, nanoseconds, |_, job| work(job, self.alone()));
     }
 
     /// Runs work as one job, or cut into several where it pays for several threads. `done` then

@@ -55,8 +55,8 @@ mod walk;
 
 pub(crate) use descent::{Scratch, descend};
 pub(crate) use nearest::{NearestScratch, gap_square, nearest};
-pub(crate) use rounds::{Pairs, Round, leaves_left_out};
-pub(crate) use share::{Item, Piece, Word};
+pub(crate) use rounds::{Pairs, Round};
+pub(crate) use share::{Item, Piece};
 pub(crate) use sink::{Collector, Sink, Visitor};
 pub(crate) use task::{Task, TaskWork, Tasks};
 pub(crate) use tree_pair::{Read, Side, TreePair, View, Views};

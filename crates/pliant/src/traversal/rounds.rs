@@ -7,13 +7,14 @@
 //! give work to idle ones.
 
 use super::context::{Context, TaskLimits};
-use super::share::{Item, Piece, Share};
+use super::share::{Item, Piece};
 use super::task::{Task, are_free, left_out};
 use super::tree_pair::Views;
 use crate::kernels::{Coordinate, Instructions};
 use crate::queries::{LeafWork, Needs};
 use crate::threads::{Exchange, Interrupt};
 use crate::tree::{LeafPair, NodePair};
+use crate::update::DirtySets;
 
 /// Most items of one pair of trees that a task takes at once; the rest can be given to others.
 const AT_ONCE: usize = 512;
@@ -38,19 +39,17 @@ pub(crate) struct Round<'q, S> {
     pub(crate) exchange: &'q Exchange<'q, Item>,
     /// Lookup of pairs of trees.
     pub(crate) pairs: &'q (dyn Pairs<S> + Sync),
+    /// Stale wide nodes that were reached, by tree. `reached` holds leaves likewise.
+    pub(crate) stale: &'q DirtySets,
+    pub(crate) reached: &'q DirtySets,
 }
 
 /// Pairs of trees by their numbers.
 pub(crate) trait Pairs<S> {
     /// Shows the views of a pair of trees, and the numbers of these trees.
     fn show(&self, pair: u32, see: &mut dyn FnMut(Views<S>, [u32; 2]));
-}
-
-/// Number of leaves of a body that are to be tested with themselves and their neighbours, since its
-/// descent leaves these pairs out. Zero if the descent finds them.
-pub(crate) fn leaves_left_out<S: Coordinate>(needs: &Needs, pair: &Views<S>) -> usize {
-    let [side, _] = pair.sides();
-    left_out(needs, pair).map_or(0, |_| side.read.tree.leaves.len())
+    /// Counts what was looked at of a pair of trees: pairs of nodes, and candidates.
+    fn count(&self, pair: u32, looked_at: [u64; 2]);
 }
 
 impl Task {
@@ -120,7 +119,7 @@ impl Task {
             Piece::Neighbours(_) => self.test_runs(context, work, first),
         }
         let looked_at = [self.walk.found.node_pairs, work.candidates() - before];
-        self.share.looked_at.push((pair, looked_at));
+        round.pairs.count(pair, looked_at);
     }
 
     /// Expands the pairs of nodes of one pair of trees in `todo[first..]`, and all pairs of nodes
@@ -180,8 +179,15 @@ impl Task {
         }
         let deferred = self.walk.deferred.drain(..);
         self.share.waiting.extend(deferred.map(item));
-        Share::note(&mut self.share.stale, &mut self.walk.stale, trees);
-        Share::note(&mut self.share.reached, &mut self.walk.reached, trees);
+        let walk = &mut self.walk;
+        for (sets, noted) in [
+            (round.stale, &mut walk.stale),
+            (round.reached, &mut walk.reached),
+        ] {
+            for (tree, noted) in trees.into_iter().zip(noted) {
+                sets.note(tree as usize, noted);
+            }
+        }
     }
 
     /// Tests the pairs of leaves of one pair of trees in `todo[first..]`.
@@ -216,6 +222,8 @@ impl Task {
         first: usize,
     ) {
         let neighbours = left_out(&context.needs, &context.pair);
+        let [side, _] = context.pair.sides();
+        let leaves = side.read.tree.leaves.len() as u32;
         while self.share.todo.len() > first {
             let Some(Piece::Neighbours([start, end])) =
                 self.share.todo.pop().map(|item| item.piece)
@@ -225,7 +233,7 @@ impl Task {
             let Some(neighbours) = neighbours else {
                 continue;
             };
-            let mut run = start..end;
+            let mut run = start..end.min(leaves);
             while run.start < run.end && work.has_room() && !context.interrupt.is_set() {
                 self.tests
                     .test_neighbours(context, work, neighbours, &mut run);

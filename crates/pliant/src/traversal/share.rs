@@ -2,7 +2,6 @@
 
 use crate::held::held;
 use crate::tree::{LeafPair, NodePair};
-use crate::update::DirtySet;
 
 /// Item of work of one pair of trees.
 #[derive(Clone, Copy, Debug)]
@@ -23,16 +22,7 @@ pub(crate) enum Piece {
     Neighbours([u32; 2]),
 }
 
-/// Bits of a set of wide nodes or leaves of a tree: 64 numbers from 64 times `number` on.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Word {
-    /// Number of the tree.
-    pub(crate) tree: u32,
-    pub(crate) number: u32,
-    pub(crate) bits: u64,
-}
-
-/// Items of a task in a round, and the items and stale nodes it leaves for the next.
+/// Items of a task in a round, and the items it leaves for the next.
 #[derive(Debug, Default)]
 pub(crate) struct Share {
     /// Items of this round that are not yet processed.
@@ -41,12 +31,6 @@ pub(crate) struct Share {
     pub(crate) waiting: Vec<Item>,
     /// Pairs of leaves that are to be tested.
     pub(crate) leaves: Vec<Item>,
-    /// Stale wide nodes that were reached, by the number of the tree. `reached` holds leaves
-    /// likewise.
-    pub(crate) stale: Vec<Word>,
-    pub(crate) reached: Vec<Word>,
-    /// Counters by the number of a pair of trees: pairs of nodes, and candidates.
-    pub(crate) looked_at: Vec<(u32, [u64; 2])>,
 }
 
 impl Share {
@@ -55,20 +39,7 @@ impl Share {
         for items in [&mut self.todo, &mut self.waiting, &mut self.leaves] {
             items.clear();
         }
-        for words in [&mut self.stale, &mut self.reached] {
-            words.clear();
-        }
-        self.looked_at.clear();
-    }
-
-    /// Moves what a walk has noted of two trees to a list of the words that have bits.
-    pub(super) fn note(words: &mut Vec<Word>, noted: &mut [DirtySet; 2], trees: [u32; 2]) {
-        for (tree, noted) in trees.into_iter().zip(noted) {
-            let bits = noted.bits_by_word();
-            words.extend(bits.map(|(number, bits)| Word { tree, number, bits }));
-            noted.clear();
-        }
     }
 }
 
-held!(Share: todo[], waiting[], leaves[], stale[], reached[], looked_at[]);
+held!(Share: todo[], waiting[], leaves[]);

@@ -20,13 +20,14 @@
 //! | `leaves` | makes the boxes of single triangles |
 //! | `whole` | makes all boxes of a body that meets itself |
 //! | `quantize` | quantizes boxes of triangles |
-//! | `dirty_set` | the set of what was reached |
+//! | `dirty_set`, `dirty_sets` | the set of what was reached; sets that threads fill together |
 //!
 //! Boxes made are counted, so that strategies can be compared by their work. The source of boxes
 //! (`Source`) and the degree are types here, matched on once a batch.
 
 mod bottom_up;
 mod dirty_set;
+mod dirty_sets;
 mod hybrid;
 mod leaves;
 mod quantize;
@@ -36,4 +37,5 @@ mod top_down;
 mod whole;
 
 pub(crate) use dirty_set::DirtySet;
+pub(crate) use dirty_sets::DirtySets;
 pub(crate) use refitted::{Partner, Refit, Refitted};

@@ -112,7 +112,7 @@ impl<S: Coordinate> State<S> {
         let bodies = &self.common.bodies;
         let mut wanted = Vec::with_capacity(shapes.len());
         for (number, &(id, positions)) in shapes.iter().enumerate() {
-            wanted.push((bodies.place(id)?.index(), number, positions));
+            wanted.push((bodies.place(id)?, number, positions));
         }
         wanted.sort_unstable_by_key(|&(place, ..)| place);
         if let Some(twice) = wanted.windows(2).find(|two| two[0].0 == two[1].0) {
@@ -123,22 +123,17 @@ impl<S: Coordinate> State<S> {
             threads: self.common.threads.here(),
             interrupt: &Interrupt::default(),
         };
-        let mut wanted = wanted.into_iter().peekable();
-        let all = self.common.bodies.all_mut().enumerate();
-        let mut jobs: Vec<_> = all
-            .filter_map(|(place, body)| {
-                let (_, number, positions) = wanted.next_if(|&(at, ..)| at == place)?;
-                Some((number, body, positions, None))
-            })
+        let places = wanted.iter().map(|&(place, ..)| place);
+        let bodies = wanted.iter().zip(self.common.bodies.some_mut(places));
+        let mut jobs: Vec<_> = bodies
+            .map(|(&(_, number, positions), body)| (number, body, positions, None))
             .collect();
         let points = jobs.iter().map(|(_, _, positions, _)| positions.len());
-        let nanoseconds = Grain::POINTS.time(points.sum());
-        // Many bodies side by side, each on one thread; few of them one after the other, on all.
-        let are_many = jobs.len() >= executor.threads_for(nanoseconds);
-        let inner = if are_many { executor.alone() } else { executor };
-        let outer = if are_many { nanoseconds } else { 0 };
-        executor.run(&mut jobs, outer, |_, (_, body, positions, staged)| {
-            *staged = Some(body.check_positions(positions, (instructions, inner)));
+        let nanoseconds = Grain::POINTS.time(points.sum()) + Grain::BODIES.time(jobs.len());
+        let points = |(_, _, positions, _): &(_, _, &[[S; 3]], _)| positions.len();
+        executor.run_uneven(&mut jobs, points, nanoseconds, |job, executor| {
+            let (_, body, positions, staged) = job;
+            *staged = Some(body.check_positions(positions, (instructions, executor)));
         });
         jobs.sort_unstable_by_key(|&(number, ..)| number);
         for (number, _, _, staged) in &mut jobs {
@@ -146,9 +141,10 @@ impl<S: Coordinate> State<S> {
                 return Err(about(shapes[*number].0)(kind));
             }
         }
-        executor.run(&mut jobs, outer, |_, (_, body, positions, staged)| {
+        executor.run_uneven(&mut jobs, points, nanoseconds, |job, executor| {
+            let (_, body, positions, staged) = job;
             if let Some(Ok(staged)) = staged {
-                body.accept_positions(staged, positions, (instructions, inner));
+                body.accept_positions(staged, positions, (instructions, executor));
             }
         });
         self.common.note_movement();

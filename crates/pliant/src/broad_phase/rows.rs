@@ -1,0 +1,132 @@
+//! Rows of a pass, found by several threads: a job has some consecutive bodies and their pairs.
+
+use super::body_tree::{BodyTree, Descent};
+use super::{Overlap, brute_force};
+use crate::geometry::Aabb;
+use crate::held::held;
+use crate::ids::Rank;
+use crate::kernels::Instructions;
+use crate::threads::{Executor, Grain};
+use std::ops::Range;
+
+/// Jobs for each thread, so that none waits long for the last.
+const JOBS_A_THREAD: usize = 4;
+/// Fewest bodies in a job, if their pairs are not too many.
+const FEWEST: usize = 32;
+
+/// Rows of one job.
+#[derive(Debug, Default)]
+pub(super) struct Rows {
+    /// Bodies whose rows are still to be found.
+    rest: Range<u32>,
+    /// Pairs that were found and are kept.
+    pub(super) pairs: Vec<Overlap>,
+    row: Vec<Overlap>,
+    descent: Descent,
+}
+
+/// Which pairs are kept.
+pub(crate) type Keep<'k> = &'k (dyn Fn(Overlap) -> bool + Sync);
+
+/// A pass over the rows of all bodies, at the body that is next.
+#[derive(Debug, Default)]
+pub(super) struct Pass {
+    next: u32,
+    /// Nodes that were tested so far.
+    tested: usize,
+    /// Pairs that rows had lately, on average: jobs are sized by them.
+    pairs_a_row: usize,
+    jobs: Vec<Rows>,
+}
+
+impl Pass {
+    pub(super) fn begin(&mut self) {
+        (self.next, self.tested) = (0, 0);
+    }
+
+    /// Appends the pairs of the next rows, in order: at least one row, about `most` pairs at once.
+    /// Returns how many nodes the pass has tested if it is done. The tree is none if all boxes are
+    /// to be compared.
+    pub(super) fn next(
+        &mut self,
+        (executor, instructions): (Executor, Instructions),
+        tree: Option<&BodyTree>,
+        boxes: &[Aabb],
+        (most, keep): (usize, Keep),
+        pairs: &mut Vec<Overlap>,
+    ) -> Option<usize> {
+        let end = boxes.len() as u32;
+        if self.next == end {
+            return Some(self.tested);
+        }
+        let left = (end - self.next) as usize;
+        let nanoseconds = Grain::ROWS.time(left);
+        let threads = executor.threads_for(nanoseconds);
+        let (jobs, size, most) = if threads == 1 {
+            (1, left, most)
+        } else {
+            let jobs = JOBS_A_THREAD * threads;
+            let most = most.div_ceil(jobs);
+            // Half of what it takes at most, so that few rows are found in vain.
+            let room = (most / (1 + self.pairs_a_row)).max(1);
+            (jobs, left.div_ceil(jobs).max(FEWEST).min(room), 2 * most)
+        };
+        let jobs = jobs.min(left.div_ceil(size));
+        self.jobs
+            .resize_with(jobs.max(self.jobs.len()), Rows::default);
+        let starts = (self.next..end).step_by(size);
+        for (job, start) in self.jobs[..jobs].iter_mut().zip(starts) {
+            job.begin(start..end.min(start.saturating_add(size as u32)));
+        }
+        executor.run(&mut self.jobs[..jobs], nanoseconds, |_, job| {
+            job.find((executor, instructions), tree, boxes, (most, keep));
+        });
+        let (first, before) = (self.next, pairs.len());
+        for job in &self.jobs[..jobs] {
+            pairs.extend_from_slice(&job.pairs);
+            self.tested += job.descent.tested;
+            self.next = job.rest.start;
+            if !job.rest.is_empty() {
+                // It has found enough; the rows of the jobs behind it are found again.
+                break;
+            }
+        }
+        let rows = (self.next - first) as usize;
+        self.pairs_a_row = (pairs.len() - before).checked_div(rows).unwrap_or(0);
+        None
+    }
+}
+
+impl Rows {
+    fn begin(&mut self, bodies: Range<u32>) {
+        self.rest = bodies;
+        self.pairs.clear();
+        self.descent.tested = 0;
+    }
+
+    /// Finds rows until there are `most` pairs, or it is interrupted; at least one row.
+    fn find(
+        &mut self,
+        (executor, instructions): (Executor, Instructions),
+        tree: Option<&BodyTree>,
+        boxes: &[Aabb],
+        (most, keep): (usize, Keep),
+    ) {
+        while !self.rest.is_empty() && self.pairs.len() < most && !executor.is_interrupted() {
+            let body = Rank(self.rest.start);
+            self.row.clear();
+            let (row, descent) = (&mut self.row, &mut self.descent);
+            match tree {
+                Some(tree) => tree.row(instructions, body, &boxes[body.index()], descent, row),
+                None => brute_force::row(boxes, body, row),
+            }
+            self.pairs
+                .extend(self.row.iter().filter(|&&pair| keep(pair)));
+            self.rest.start += 1;
+        }
+    }
+}
+
+held!(Pass: jobs);
+
+held!(Rows: pairs[], row[], descent);

@@ -42,15 +42,14 @@ TIE = 1e-9
 
 class Ours:
     def __init__(self, bodies):
-        self.world = pliant.World()
+        self.world = pliant.World(threads=bodies.threads)
         self.ids = [
             self.world.add(faces, vertices)
             for faces, vertices in zip(bodies.faces, bodies.steps[0])
         ]
 
     def ask(self, shapes, distance):
-        for body, shape in zip(self.ids, shapes):
-            self.world.set_positions(body, shape)
+        self.world.set_positions_of(zip(self.ids, shapes))
         every = pliant.Selection.EVERYTHING
         return (
             self.world.close_vertex_triangle_pairs(every, distance).all(),

@@ -59,8 +59,7 @@ def compare(bodies, part, rounds):
     ours, theirs = Ours(bodies), Theirs(bodies)
 
     def move():
-        for body, shape in zip(ours.ids, start):
-            ours.world.set_positions(body, shape)
+        ours.world.set_positions_of(zip(ours.ids, start))
         for body, shape in zip(ours.ids, end):
             ours.world.set_motion(body, shape)
 

@@ -7,7 +7,7 @@
     target/ipctk/bin/python benchmarks/compare_with_ipctk.py
 
 Both are asked for vertex-triangle and edge-edge candidates of all bodies and of each with itself,
-with one thread and 64-bit positions, in one process. ipctk's call is `Candidates.build` with its
+with one thread, or `--threads N`, and 64-bit positions, in one process. ipctk's call is `Candidates.build` with its
 LBVH, the fastest of its broad phases on a processor, which rebuilds its trees in every call. Ours
 is the step of a simulator: positions, the end of the motion if there is one, both lists. Adding
 the meshes is timed for neither.
@@ -54,6 +54,7 @@ class Bodies:
     name: str
     faces: list
     steps: list  # of two steps, the vertices of each body
+    threads: int = 1  # that both use
 
     def __post_init__(self):
         counts = [len(vertices) for vertices in self.steps[0]]
@@ -95,15 +96,14 @@ def real(data, name, frame):
 
 class Ours:
     def __init__(self, bodies):
-        self.world = pliant.World()
+        self.world = pliant.World(threads=bodies.threads)
         self.ids = [
             self.world.add(faces, vertices)
             for faces, vertices in zip(bodies.faces, bodies.steps[0])
         ]
 
     def ask(self, starts, ends, radius):
-        for body, start in zip(self.ids, starts):
-            self.world.set_positions(body, start)
+        self.world.set_positions_of(zip(self.ids, starts))
         if ends is not None:
             for body, end in zip(self.ids, ends):
                 self.world.set_motion(body, end)
@@ -246,10 +246,12 @@ def arguments_of(what, rounds):
     parser.add_argument("--data", type=pathlib.Path, default=CHECKOUT.parent / "shared" / "data")
     parser.add_argument("--rounds", type=int, default=rounds)
     parser.add_argument("--only", default="", help="of what is compared, what has this in its name")
+    parser.add_argument("--threads", type=int, default=1, help="that both use")
     arguments = parser.parse_args()
-    ipctk.set_num_threads(1)
+    ipctk.set_num_threads(arguments.threads)
+    threads = "one thread" if arguments.threads == 1 else f"{arguments.threads} threads"
     print(
-        f"pliant {pliant.__version__} and ipctk {importlib.metadata.version('ipctk')}, one thread,"
+        f"pliant {pliant.__version__} and ipctk {importlib.metadata.version('ipctk')}, {threads},"
         f" {arguments.rounds} rounds\n"
     )
     return arguments
@@ -275,7 +277,7 @@ def all_bodies(arguments):
             print("no ../shared/data beside the checkout: real meshes skipped")
         for name, make in makers:
             if arguments.only in name:
-                yield make()
+                yield dataclasses.replace(make(), threads=arguments.threads)
 
 
 def main():

@@ -5,7 +5,7 @@
 
 use crate::answers::{Any, Rows, counted, named};
 use crate::error::{Refused, Result, after_checking, alone, alone_with, caught, refused};
-use crate::options::with_threads;
+use crate::options::{Threads, with_threads};
 use crate::signals::interruptible;
 use crate::usd::{self, Raised};
 use numpy::{IntoPyArray, PyArray1};
@@ -161,7 +161,8 @@ impl Name {
 ///   format allows it
 /// - clip: name of the glTF animation; None is the first
 /// - fps: frames a second at which glTF animations are evaluated
-/// - threads: how many share the work of a frame; no number changes an answer
+/// - threads: how many share the work of a frame, at most, or "all" for one a core; no number
+///   changes an answer
 ///
 /// Raises pliant.Error: CannotRead, BadOption, TooLarge, BadPosition. What is odd but no error,
 /// such as numbered files that are given one by one, is a UserWarning.
@@ -169,7 +170,7 @@ impl Name {
 #[pyo3(signature = (
     *paths, itself=false, within=None, crossing=false, swept=false, first=false, weld=true,
     weld_tolerance=0.0, split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false,
-    places=false, frames=None, clip=None, fps=30.0, threads=1
+    places=false, frames=None, clip=None, fps=30.0, threads=Threads::Count(1)
 ))]
 #[expect(
     clippy::too_many_arguments,
@@ -195,7 +196,7 @@ pub(crate) fn check(
     frames: Option<&Bound<'_, PyRange>>,
     clip: Option<String>,
     fps: f64,
-    threads: i64,
+    threads: Threads,
 ) -> Result<Check> {
     let group = |(name, bodies): (String, Vec<Name>)| {
         let bodies = bodies.into_iter().map(Name::into_text);
@@ -216,7 +217,7 @@ pub(crate) fn check(
         skip_degenerate,
         places,
         frames: frames.map(range_of_frames).transpose()?,
-        options: with_threads(threads)?,
+        options: with_threads(&threads)?,
         ..Settings::default()
     };
     let paths = paths.into_iter().map(|path| Name::Path(path).into_text());

@@ -3,7 +3,7 @@
 use crate::answers::{Any, Rows};
 use crate::arrays::{self, CopiedMesh};
 use crate::error::{Refused, Result};
-use crate::options::with_threads;
+use crate::options::{Threads, with_threads};
 use crate::signals::interruptible;
 use crate::state::{State, precision_of};
 use pliant::{BodyId, Pair, Selection, reference};
@@ -76,20 +76,21 @@ fn triangles_of_all(state: &mut State, of: Selection) -> Result<Rows<u32, 2>> {
 ///
 /// Vertices are (n, 3) float32 or float64, faces (m, 3) of any integer type. A mesh object has
 /// .vertices and .faces or .triangles. If one mesh is of float64, both are decided in it. Decided
-/// exactly, as World.intersections does. threads is how many share the work, and changes no answer.
+/// exactly, as World.intersections does. threads is how many share the work, at most, or "all" for
+/// one a core. It changes no answer.
 ///
 /// Raises pliant.Error: the kinds of World.add, and BadOption for threads. TypeError for another
 /// number of arguments.
 ///
 /// Cost: building both trees, O(m log m); ask again and again with a World.
 #[pyfunction]
-#[pyo3(signature = (*meshes, threads=1))]
+#[pyo3(signature = (*meshes, threads=Threads::Count(1)))]
 pub(crate) fn intersection_pairs(
     py: Python<'_>,
     meshes: &Bound<'_, PyTuple>,
-    threads: i64,
+    threads: Threads,
 ) -> Result<Rows<u32, 2>> {
-    let options = with_threads(threads)?;
+    let options = with_threads(&threads)?;
     let [a, b] = two(meshes)?;
     let (a, b) = (a.get()?, b.get()?);
     py.detach(|| {
@@ -109,13 +110,13 @@ pub(crate) fn intersection_pairs(
 /// Triangles that share a vertex are left out. Nothing is welded: weld seams first, or their sides
 /// are reported. Arguments, errors and cost are as for pliant.intersection_pairs.
 #[pyfunction]
-#[pyo3(signature = (*mesh, threads=1))]
+#[pyo3(signature = (*mesh, threads=Threads::Count(1)))]
 pub(crate) fn self_intersection_pairs(
     py: Python<'_>,
     mesh: &Bound<'_, PyTuple>,
-    threads: i64,
+    threads: Threads,
 ) -> Result<Rows<u32, 2>> {
-    let options = with_threads(threads)?;
+    let options = with_threads(&threads)?;
     let mesh = one(mesh)?;
     let mesh = mesh.get()?;
     py.detach(|| {

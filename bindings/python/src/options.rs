@@ -28,6 +28,13 @@ const BROAD_PHASES: &Names<BroadPhase> = &[
     ("auto", BroadPhase::Auto),
 ];
 
+/// How many threads: a number, or "all" for one a core.
+#[derive(Clone, Debug, FromPyObject, IntoPyObject)]
+pub(crate) enum Threads {
+    Count(i64),
+    Named(String),
+}
+
 /// Options as they were given, the keyword arguments that make another world like it.
 #[derive(Clone, Debug, IntoPyObject)]
 pub(crate) struct Keywords {
@@ -37,7 +44,7 @@ pub(crate) struct Keywords {
     pub(crate) update: String,
     pub(crate) level: Option<i64>,
     pub(crate) broad: String,
-    pub(crate) threads: i64,
+    pub(crate) threads: Threads,
     pub(crate) mending: bool,
 }
 
@@ -65,18 +72,26 @@ impl Keywords {
             )?);
         }
         options.broad_phase = named("broad", &self.broad, BROAD_PHASES)?;
-        options.threads = with_threads(self.threads)?.threads;
+        options.threads = with_threads(&self.threads)?.threads;
         options.mending = self.mending;
         Ok(options)
     }
 }
 
 /// The default options with the number of threads that a call was given.
-pub(crate) fn with_threads(threads: i64) -> Result<Options> {
+pub(crate) fn with_threads(threads: &Threads) -> Result<Options> {
     let mut options = Options::default();
-    options.threads = at_least_one("threads", threads)?
-        .try_into()
-        .map_err(|_| refused!(BadOption: "threads is larger than this machine can count"))?;
+    match threads {
+        Threads::Named(name) if name == "all" => return Ok(Options::all_threads()),
+        Threads::Named(name) => {
+            return Err(refused!(BadOption: "threads is {name:?}; it can be a number or \"all\""));
+        }
+        Threads::Count(count) => {
+            options.threads = at_least_one("threads", *count)?.try_into().map_err(
+                |_| refused!(BadOption: "threads is larger than this machine can count"),
+            )?;
+        }
+    }
     Ok(options)
 }
 

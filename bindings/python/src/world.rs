@@ -4,7 +4,7 @@ use crate::answers::{Any, Column, Owned, Rows, counted, named};
 use crate::arrays::{self, BoxCorners, Coordinates, CopiedCoordinates, CopiedMesh, Number};
 use crate::edit::{self, AnyEdit, Edit};
 use crate::error::{Refused, Result};
-use crate::options::Keywords;
+use crate::options::{Keywords, Threads};
 use crate::pickled::{self, Written};
 use crate::queries::Hit;
 use crate::queries::close::{Close, CloseQuery};
@@ -68,8 +68,8 @@ use pyo3::types::{PyDict, PyTuple};
 ///   of the tree, and all levels where a body meets itself
 /// - broad: how pairs of bodies are found. "brute" compares all boxes, "sweep" is sweep and prune,
 ///   "tree" a tree of bodies. "auto" is "brute" up to 100 bodies, then "tree"
-/// - threads: how many threads share the work of a query. Small steps gain nothing from more:
-///   `pliant bench cores` measures your machine
+/// - threads: how many threads share the work of a query, at most, or "all" for one a core. Work
+///   that is small takes fewer, so that more threads do not make it slower
 /// - mending: whether a tree that has decayed is built anew, a part of the work at each new shape:
 ///   see tree_quality
 ///
@@ -117,7 +117,7 @@ impl World {
     #[expect(clippy::too_many_arguments, reason = "they are keywords")]
     #[pyo3(signature = (
         *, degree=8, partition="balanced", leaf_size=8, update="hybrid", level=None, broad="auto",
-        threads=1, mending=false
+        threads=Threads::Count(1), mending=false
     ))]
     fn new(
         degree: i64,
@@ -126,7 +126,7 @@ impl World {
         update: &str,
         level: Option<i64>,
         broad: &str,
-        threads: i64,
+        threads: Threads,
         mending: bool,
     ) -> Result<Self> {
         let keywords = Keywords {

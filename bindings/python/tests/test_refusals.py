@@ -210,6 +210,7 @@ def test_arguments_of_a_wrong_form_are_told_the_right_one(
         ({"leaf_size": 0}, "leaf_size is 0; it must be at least 1"),
         ({"leaf_size": 2**32}, "leaf_size is 4294967296; it must be at least 1, and below"),
         ({"threads": 0}, "threads is 0; it must be at least 1"),
+        ({"threads": "both"}, 'threads is "both"; it can be a number or "all"'),
         ({"level": -1}, "level is -1; the root is 0"),
         ({"level": 1, "update": "top-down"}, "level is the hybrid update's"),
     ],
@@ -226,6 +227,7 @@ def test_options_make_another_world_like_it() -> None:
     world = pliant.World(**given)
     assert world.options() == given
     assert pliant.World(**world.options()).options() == given
+    assert pliant.World(threads="all").options()["threads"] == "all"
 
 
 def test_options_reach_the_library() -> None:

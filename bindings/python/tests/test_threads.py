@@ -8,7 +8,7 @@ import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pliant
@@ -187,7 +187,8 @@ def test_a_second_thread_is_refused_not_left_waiting() -> None:
 
 def test_threads_is_an_argument_that_changes_no_answer() -> None:
     expected = pliant.self_intersection_pairs(SHAPE, FACES)
-    for threads in (1, 2, 7):
+    counts: list[int | Literal["all"]] = [1, 2, 7, "all"]
+    for threads in counts:
         np.testing.assert_array_equal(pliant.self_intersection_pairs(SHAPE, FACES, threads=threads), expected)
     with pytest.raises(pliant.Error, match="threads is 0"):
         pliant.self_intersection_pairs(SHAPE, FACES, threads=0)

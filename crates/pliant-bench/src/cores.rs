@@ -91,24 +91,36 @@ pub struct Measured {
     pub measured: Vec<(usize, f64)>,
 }
 
-/// Milliseconds that a part costs which two threads share, for nothing.
+/// Milliseconds that a part without work costs two threads: the median of some runs.
 pub fn wait_ms() -> f64 {
     let mut world = world_of(2);
-    world.run_empty_parts(WAITS / 10);
-    let start = Instant::now();
-    world.run_empty_parts(WAITS);
-    milliseconds(start.elapsed()) / f64::from(WAITS)
+    median((0..=10).map(|_| {
+        let start = Instant::now();
+        world.run_empty_parts(WAITS);
+        milliseconds(start.elapsed()) / f64::from(WAITS)
+    }))
 }
 
-/// Measures all scenes and questions, or small ones. `show` is given each as it is known.
+fn median(times: impl Iterator<Item = f64>) -> f64 {
+    let mut times: Vec<f64> = times.collect();
+    times.sort_unstable_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+/// Measures all scenes and questions, or small ones, and replays them with a cost of a wait.
+/// `show` is given each as it is known.
 #[expect(
     clippy::missing_panics_doc,
     reason = "scenes and their shapes are fixed, and worlds take them"
 )]
-pub fn measure(is_small: bool, rounds: usize, show: &mut dyn FnMut(&Measured)) -> Vec<Measured> {
-    let wait = wait_ms();
+pub fn measure(
+    wait_ms: f64,
+    is_small: bool,
+    rounds: usize,
+    show: &mut dyn FnMut(&Measured),
+) -> Vec<Measured> {
     let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    let counts = (1..).map(|power| 1 << power);
+    let counts = (0..).map(|power| 1 << power);
     let counts: Vec<usize> = counts.take_while(|&count| count <= cores).collect();
     let mut all = Vec::new();
     for (name, triangles, steps) in SCENES {
@@ -126,7 +138,8 @@ pub fn measure(is_small: bool, rounds: usize, show: &mut dyn FnMut(&Measured)) -
         let scene = scene.expect("a scene that there is");
         let played = Played::new(&scene, steps);
         for question in QUESTIONS {
-            let one = played.time(question, 1, rounds);
+            let times = played.times(question, &counts, rounds);
+            let one = times[0];
             let parts = played.record(question);
             let steps = played.steps() as f64;
             let sum = |of: &dyn Fn(&RecordedPart) -> u64| {
@@ -136,13 +149,13 @@ pub fn measure(is_small: bool, rounds: usize, show: &mut dyn FnMut(&Measured)) -
             let work = serial + sum(&|part| part.jobs.iter().sum());
             let longest = sum(&|part| part.jobs.iter().copied().max().unwrap_or_default());
             let replayed = |workers| {
-                let parts = parts.iter().map(|part| replay(part, workers, 1e6 * wait));
+                let parts = parts
+                    .iter()
+                    .map(|part| replay(part, workers, 1e6 * wait_ms));
                 1e-6 * parts.sum::<f64>() / steps
             };
-            let measured = counts.iter().map(|&count| {
-                let time = played.time(question, count, rounds);
-                (count, one / time)
-            });
+            let faster = times.iter().map(|time| one / time);
+            let measured = counts.iter().copied().zip(faster).skip(1);
             let measured = Measured {
                 scene: format!("{name} {} x {triangles}", scene.body_count()),
                 question,
@@ -218,19 +231,25 @@ impl Played {
         self.shapes.len() - 1
     }
 
-    /// Milliseconds a step with a number of threads: the median over rounds.
-    fn time(&self, question: Question, threads: usize, rounds: usize) -> f64 {
-        let (mut world, bodies) = self.built(world_of(threads));
-        self.play(&mut world, &bodies, question);
-        let mut times: Vec<f64> = (0..rounds)
+    /// Milliseconds a step with each number of threads: medians over rounds, in which they take
+    /// turns.
+    fn times(&self, question: Question, counts: &[usize], rounds: usize) -> Vec<f64> {
+        let worlds = counts.iter().map(|&threads| self.built(world_of(threads)));
+        let mut worlds: Vec<_> = worlds.collect();
+        let mut rounds: Vec<Vec<f64>> = (0..=rounds)
             .map(|_| {
-                let start = Instant::now();
-                self.play(&mut world, &bodies, question);
-                milliseconds(start.elapsed()) / self.steps() as f64
+                let times = worlds.iter_mut().map(|(world, bodies)| {
+                    let start = Instant::now();
+                    self.play(world, bodies, question);
+                    milliseconds(start.elapsed()) / self.steps() as f64
+                });
+                times.collect()
             })
             .collect();
-        times.sort_unstable_by(f64::total_cmp);
-        times[times.len() / 2]
+        // The first round fills buffers.
+        rounds.remove(0);
+        let of_one = |which| median(rounds.iter().map(|times| times[which]));
+        (0..counts.len()).map(of_one).collect()
     }
 
     /// Jobs of all steps.
@@ -345,7 +364,7 @@ mod tests {
     #[test]
     fn small_scenes_are_measured() {
         let mut shown = 0;
-        let all = measure(true, 1, &mut |_| shown += 1);
+        let all = measure(0.001, true, 1, &mut |_| shown += 1);
         assert_eq!(all.len(), COUNT);
         assert_eq!(shown, all.len());
         assert!(

@@ -32,8 +32,9 @@ pub(crate) struct TreeOptions {
     /// tree: a tree of bodies. auto: by the number of bodies
     #[arg(long, value_enum, default_value_t = Broad::Auto)]
     broad: Broad,
-    /// How many threads share the work of a query
-    #[arg(long, value_name = "T", default_value = "1", value_parser = at_least_one::<NonZeroUsize>)]
+    /// How many threads share the work of a query, at most; all: one for each core. Work that is
+    /// small takes fewer
+    #[arg(long, value_name = "T", default_value = "all", value_parser = threads)]
     threads: NonZeroUsize,
 }
 
@@ -142,6 +143,14 @@ impl TreeOptions {
 pub(crate) fn at_least_one<N: FromStr>(text: &str) -> Result<N, String> {
     text.parse()
         .map_err(|_| "write a whole number, 1 or more".to_owned())
+}
+
+/// Parses a number of threads, which `all` is too: one for each core.
+pub(crate) fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    match text {
+        "all" => Ok(Options::all_threads().threads),
+        _ => at_least_one(text).map_err(|cure| format!("{cure}, or all")),
+    }
 }
 
 /// Name of a value, as it is written on the command line.

@@ -36,9 +36,9 @@ pub struct Options {
     /// They belong to the world, or to [a pool](crate::World::with_pool) that it was lent. Where
     /// the system gives none, the calling thread does it all.
     ///
-    /// Small steps gain nothing from more: `pliant bench cores` measures your machine. More than
-    /// 256 are taken as 256. For a fifth of a millisecond after a query, threads of the world look
-    /// for more work before they sleep.
+    /// More threads than the work pays for sleep, so that more do not make it slower: `pliant bench
+    /// cores` measures your machine. More than 256 are taken as 256. For a fifth of a millisecond
+    /// after a query, threads of the world look for more work before they sleep.
     pub threads: NonZeroUsize,
     /// Whether trees of bodies [mend themselves](crate::World::tree_quality). Default: no.
     ///
@@ -172,6 +172,19 @@ impl Default for Options {
 }
 
 impl Options {
+    /// The defaults, with as many threads as the machine has cores for this process. If the system
+    /// does not say how many, it is one.
+    ///
+    /// No number of threads changes an answer. One thread, the default, is best where a simulator
+    /// uses the other cores itself.
+    pub fn all_threads() -> Self {
+        let threads = std::thread::available_parallelism();
+        Self {
+            threads: threads.unwrap_or(NonZeroUsize::MIN),
+            ..Self::default()
+        }
+    }
+
     /// The configuration of the paper's experiments.
     ///
     /// 8-ary initial shape trees are cut at the box centre, with one triangle a leaf, and updated

@@ -89,7 +89,7 @@ class _Options(TypedDict):
     update: _Update
     level: int | None
     broad: _Broad
-    threads: int
+    threads: int | Literal["all"]
     mending: bool
 
 @final
@@ -105,7 +105,7 @@ class World:
         update: _Update = "hybrid",
         level: int | None = None,
         broad: _Broad = "auto",
-        threads: int = 1,
+        threads: int | Literal["all"] = 1,
         mending: bool = False,
     ) -> World: ...
     def __copy__(self) -> World: ...
@@ -376,26 +376,26 @@ def check(
     frames: range | None = None,
     clip: str | None = None,
     fps: float = 30.0,
-    threads: int = 1,
+    threads: int | Literal["all"] = 1,
 ) -> Check:
     """Checks files frame by frame, as the program `pliant check` does: an iterator of Frame."""
 
 @overload
 def intersection_pairs(
-    va: _Array, fa: _Array, vb: _Array, fb: _Array, /, *, threads: int = 1
+    va: _Array, fa: _Array, vb: _Array, fb: _Array, /, *, threads: int | Literal["all"] = 1
 ) -> _Pairs:
     """Intersecting triangles of two meshes, (k, 2) uint32, sorted: triangle of a, triangle of b."""
 
 @overload
 def intersection_pairs(
-    mesh_a: Mesh | OpenMesh, mesh_b: Mesh | OpenMesh, /, *, threads: int = 1,
+    mesh_a: Mesh | OpenMesh, mesh_b: Mesh | OpenMesh, /, *, threads: int | Literal["all"] = 1,
 ) -> _Pairs: ...
 @overload
-def self_intersection_pairs(vertices: _Array, faces: _Array, /, *, threads: int = 1) -> _Pairs:
+def self_intersection_pairs(vertices: _Array, faces: _Array, /, *, threads: int | Literal["all"] = 1) -> _Pairs:
     """Self-intersections of a mesh, (k, 2) uint32, sorted: smaller triangle, larger triangle."""
 
 @overload
-def self_intersection_pairs(mesh: Mesh | OpenMesh, /, *, threads: int = 1) -> _Pairs: ...
+def self_intersection_pairs(mesh: Mesh | OpenMesh, /, *, threads: int | Literal["all"] = 1) -> _Pairs: ...
 @overload
 def reference_intersection_pairs(va: _Array, fa: _Array, vb: _Array, fb: _Array, /) -> _Pairs:
     """Intersecting triangles of two meshes by brute force, (k, 2) uint32, sorted."""

@@ -49,19 +49,27 @@ pub(super) fn cores(asked: &Asked) -> anyhow::Result<Outcome> {
     header.push("measured");
     let mut rows = table(&header);
     let bar = progress(COUNT as u64, asked.is_quiet);
-    let all = measure(asked.is_small, asked.rounds, &mut |one| {
+    let wait_ms = wait_ms();
+    let all = measure(wait_ms, asked.is_small, asked.rounds, &mut |one| {
         rows.add_row(row(one));
         bar.inc(1);
     });
     bar.finish_and_clear();
     if !asked.is_quiet {
-        print_all(&format!("{}\n{rows}\n", tables::machine_line(&machine)))?;
+        let wait = format!(
+            "A part without work costs two threads {:.1} us.",
+            1e3 * wait_ms
+        );
+        print_all(&format!(
+            "{}\n{wait}\n{rows}\n",
+            tables::machine_line(&machine)
+        ))?;
     }
     if let Some(file) = asked.file {
         let record = Record {
             format: 1,
             cores_of: &machine,
-            wait_ms: wait_ms(),
+            wait_ms,
             workers: WORKERS,
             measured: &all,
         };

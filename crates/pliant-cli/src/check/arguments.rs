@@ -3,7 +3,7 @@
 use super::names::{self, Names};
 use crate::frames::Frames;
 use crate::report::PictureOptions;
-use crate::tree_options::at_least_one;
+use crate::tree_options::threads;
 use crate::{rate, size};
 use clap::{Args, ValueEnum, ValueHint};
 use pliant_check::{Baseline, Group};
@@ -121,8 +121,9 @@ pub(crate) struct Arguments {
         value_parser = rate::parse
     )]
     pub(super) fps: f64,
-    /// How many threads share the work; no number changes an answer
-    #[arg(long, value_name = "T", default_value = "1", value_parser = at_least_one::<NonZeroUsize>)]
+    /// How many threads share the work, at most; all: one for each core. No number changes an
+    /// answer, and work that is small takes fewer
+    #[arg(long, value_name = "T", default_value = "all", value_parser = threads)]
     pub(super) threads: NonZeroUsize,
     /// A table by frame, one JSON object, annotations for GitHub Actions, or a line for each pair:
     /// FRAME BODY TRIANGLE BODY TRIANGLE

@@ -40,6 +40,8 @@ pub(crate) struct Body<S> {
 
 /// Stride of the triangles that are sampled to know how far vertices move.
 const SAMPLED: usize = 16;
+/// Most samples of a body, about.
+const SAMPLES: usize = 1024;
 
 /// Divisor for few edits: with fewer edited than one of this many triangles, the tree does about as
 /// well as a fresh one.
@@ -315,7 +317,8 @@ impl<S: Coordinate> Body<S> {
             let along = |axis: usize| (p[axis].to_f64() - q[axis].to_f64()).abs();
             along(0).max(along(1)).max(along(2))
         };
-        let some = self.mesh.order().all_corners().iter().step_by(SAMPLED);
+        let all = self.mesh.order().all_corners();
+        let some = all.iter().step_by(SAMPLED.max(all.len() / SAMPLES));
         let (mut ways, mut sides) = (0.0, 0.0);
         for &[a, b, _] in some {
             ways += way(from(a), to(a));

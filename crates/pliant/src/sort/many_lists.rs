@@ -1,15 +1,15 @@
 //! Parallel sort of one list a thread by regular sampling (Shi and Schaeffer 1992).
 //!
-//! Each list is sorted. Splitters from regular samples of all lists then cut each list into ranges;
-//! a range of all lists is merged by one thread. Differs from `buckets`: items are more than keys.
-//! The order is total, as no two items are equal, so it does not depend on the lists.
+//! Pieces of the lists are sorted. Splitters from regular samples of all pieces then cut each into
+//! ranges; a range of all pieces is merged by one thread. Differs from `buckets`: items are more
+//! than keys. The order is total, as no two items are equal, so it does not depend on the lists.
 
 use super::{Numbered, sort_by_numbers};
 use crate::threads::{Executor, Grain, PerThread};
 
-/// Fewest items of a range: fewer are not worth a thread.
+/// Fewest items of a piece or a range: fewer are not worth a thread.
 const FEWEST: usize = 512;
-/// Samples of a list for each range.
+/// Samples of a piece for each range.
 const SAMPLES: usize = 4;
 
 /// Sorts the items of all lists together. O(n log n), shared by threads. `sorted` is scratch.
@@ -31,32 +31,36 @@ pub(crate) fn sort_lists<'l, T: Numbered + Copy + Send + Sync>(
         sort_by_numbers(all);
         return all;
     }
-    let mut lists: Vec<_> = lists.iter_mut().collect();
-    executor.run(&mut lists, nanoseconds, |_, list| sort_by_numbers(list));
+    // One thread may have found nearly all.
+    let pieces = lists
+        .iter_mut()
+        .flat_map(|list| list.chunks_mut(count.div_ceil(ranges)));
+    let mut pieces: Vec<&mut [T]> = pieces.collect();
+    executor.run(&mut pieces, nanoseconds, |_, piece| sort_by_numbers(piece));
     if executor.is_interrupted() {
         return &[];
     }
-    let samples = lists.iter().flat_map(|list| {
-        let every = list.len().div_ceil(SAMPLES * ranges).max(1);
-        list.iter().step_by(every).map(T::numbers)
+    let samples = pieces.iter().flat_map(|piece| {
+        let every = piece.len().div_ceil(SAMPLES * ranges).max(1);
+        piece.iter().step_by(every).map(T::numbers)
     });
     let mut samples: Vec<_> = samples.collect();
     samples.sort_unstable();
     let splitter = |range: usize| samples[range * samples.len() / ranges];
-    let filler = lists.iter().find_map(|list| list.first().copied());
+    let filler = pieces.iter().find_map(|piece| piece.first().copied());
     let Some(filler) = filler else { return &[] };
     sorted.resize(count, filler);
     let mut rest = &mut sorted[..];
-    let mut starts = vec![0; lists.len()];
+    let mut starts = vec![0; pieces.len()];
     let mut jobs: Vec<_> = (1..=ranges)
         .map(|range| {
-            let slices = lists.iter().zip(&mut starts).map(|(list, start)| {
+            let slices = pieces.iter().zip(&mut starts).map(|(piece, start)| {
                 let end = if range < ranges {
-                    list.partition_point(|item| item.numbers() < splitter(range))
+                    piece.partition_point(|item| item.numbers() < splitter(range))
                 } else {
-                    list.len()
+                    piece.len()
                 };
-                &list[std::mem::replace(start, end)..end]
+                &piece[std::mem::replace(start, end)..end]
             });
             let slices: Vec<&[T]> = slices.collect();
             let items = slices.iter().map(|slice| slice.len()).sum();

@@ -53,6 +53,12 @@ impl<'q, T> Exchange<'q, T> {
         self.idle.load(Ordering::Relaxed) > 0
     }
 
+    /// Whether to end a piece of work soon: another worker waits, or pieces are recorded.
+    #[inline]
+    pub(crate) fn wants_short_pieces(&self) -> bool {
+        self.is_anyone_idle() || self.recorder.is_some()
+    }
+
     /// Marks the end of a piece of work, after which the rest could be given to others.
     #[inline]
     pub(crate) fn mark(&self) {

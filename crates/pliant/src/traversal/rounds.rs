@@ -15,6 +15,7 @@ use crate::queries::{LeafWork, Needs};
 use crate::threads::{Exchange, Interrupt};
 use crate::tree::{LeafPair, NodePair};
 use crate::update::DirtySets;
+use std::mem::discriminant;
 
 /// Most items of one pair of trees that a task takes at once; the rest can be given to others.
 const AT_ONCE: usize = 512;
@@ -66,12 +67,15 @@ impl Task {
             if todo.len() > 1 && round.exchange.is_anyone_idle() {
                 round.exchange.give(todo.drain(..todo.len() / 2));
             }
-            let Some(pair) = todo.last().map(|item| item.pair) else {
+            let Some(&Item { pair, piece }) = todo.last() else {
                 continue;
             };
-            let others = todo.iter().rposition(|item| item.pair != pair);
+            let is_other = |item: &Item| {
+                item.pair != pair || discriminant(&item.piece) != discriminant(&piece)
+            };
+            let others = todo.iter().rposition(is_other);
             let first = others.map_or(0, |last| last + 1);
-            let at_once = match todo[todo.len() - 1].piece {
+            let at_once = match piece {
                 Piece::Neighbours(_) => RUNS_AT_ONCE,
                 Piece::Nodes(_) | Piece::Leaves(_) => AT_ONCE,
             };
@@ -115,7 +119,7 @@ impl Task {
         let before = work.candidates();
         match piece {
             Piece::Nodes(_) => self.expand_all_below(context, round, work, first, trees),
-            Piece::Leaves(_) => self.test_leaves(context, work, first),
+            Piece::Leaves(_) => self.test_leaves(context, round, work, first),
             Piece::Neighbours(_) => self.test_runs(context, work, first),
         }
         let looked_at = [self.walk.found.node_pairs, work.candidates() - before];
@@ -146,7 +150,7 @@ impl Task {
         loop {
             self.walk_on(context, Some(round.exchange));
             if is_free {
-                self.test_all(context, work);
+                self.test_all(context, round, work, pair);
             } else {
                 let leaves = self.walk.found.leaves.as_slice().iter();
                 let item = |&leaves: &LeafPair| Item {
@@ -194,21 +198,39 @@ impl Task {
     fn test_leaves<S: Coordinate>(
         &mut self,
         context: &Context<S>,
+        round: &Round<S>,
         work: &mut dyn LeafWork<S>,
         first: usize,
     ) {
+        let pair = self.share.todo[first].pair;
         for item in self.share.todo.drain(first..) {
             if let Piece::Leaves(leaves) = item.piece {
                 self.walk.found.leaves.push(leaves);
             }
         }
-        self.test_all(context, work);
+        self.test_all(context, round, work, pair);
     }
 
-    /// Tests all pairs of leaves on the list, unless there are too many hits, and empties it.
-    fn test_all<S: Coordinate>(&mut self, context: &Context<S>, work: &mut dyn LeafWork<S>) {
+    /// Tests all pairs of leaves on the list, unless there are too many hits, and empties it. Gives
+    /// some to tasks that wait.
+    fn test_all<S: Coordinate>(
+        &mut self,
+        context: &Context<S>,
+        round: &Round<S>,
+        work: &mut dyn LeafWork<S>,
+        pair: u32,
+    ) {
         while !self.all_tested() && work.has_room() && !context.interrupt.is_set() {
             self.test_next(context, work);
+            round.exchange.mark();
+            if round.exchange.is_anyone_idle() {
+                let given = self.take_untested();
+                let items = given.iter().map(|&leaves| Item {
+                    pair,
+                    piece: Piece::Leaves(leaves),
+                });
+                round.exchange.give(items);
+            }
         }
         self.forget_leaves();
     }

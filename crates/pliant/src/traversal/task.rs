@@ -14,7 +14,7 @@ use crate::kernels::Coordinate;
 use crate::queries::{LeafWork, Needs};
 use crate::statistics::Statistics;
 use crate::threads::{Exchange, Executor};
-use crate::tree::Neighbours;
+use crate::tree::{LeafPair, Neighbours};
 use std::ops::{ControlFlow, Range};
 
 /// Pairs of blocks of triangles that are tested before a task checks whether it has found enough.
@@ -34,6 +34,8 @@ pub(crate) struct Task {
     /// Leaves still to be tested with themselves and their neighbours, where the descent omits
     /// these pairs.
     pub(super) run: Range<u32>,
+    /// Scratch: pairs of leaves on their way to another task.
+    untested: Vec<LeafPair>,
     /// Lists on the way from pairs of leaves to the kind of query.
     pub(super) tests: LeafTests,
     /// Share of this task in the rounds of many pairs of trees.
@@ -165,7 +167,7 @@ impl Task {
             left_out: left_out(needs, &context.pair),
             is_one_tree: context.pair.is_one_tree(),
             defers: exchange.is_some(),
-            is_anyone_idle: &|| exchange.is_some_and(Exchange::is_anyone_idle),
+            is_anyone_idle: &|| exchange.is_some_and(Exchange::wants_short_pieces),
             notes_leaves: needs.triangles() && !are_free(needs, sides),
         };
         self.walk.go(trees, &rules);
@@ -227,6 +229,14 @@ impl Task {
         work.hand_over();
     }
 
+    /// Takes half of the pairs of leaves that were not yet begun off the list.
+    pub(super) fn take_untested(&mut self) -> &[LeafPair] {
+        let leaves = &mut self.walk.found.leaves;
+        let untested = leaves.len().saturating_sub(self.cursor.pair + 1);
+        leaves.take_last(untested.div_ceil(2), &mut self.untested);
+        &self.untested
+    }
+
     /// Clears the list of pairs of leaves, all of which were tested.
     pub(super) fn forget_leaves(&mut self) {
         self.walk.found.clear_leaves();
@@ -234,4 +244,4 @@ impl Task {
     }
 }
 
-held!(Task: walk, tests, share);
+held!(Task: walk, untested[], tests, share);

@@ -77,6 +77,7 @@ impl Walk {
         let complete = trees.iter().all(|tree| tree.boxes.are_nodes_complete());
         loop {
             let (batch, found) = (&self.batch, &mut self.found);
+            let is_any = !batch.is_empty();
             expand(instructions, trees, is_one_tree, batch, left_out, found);
             self.batch.clear();
             for (set, reached) in self.reached.iter_mut().zip(&mut self.found.reached) {
@@ -91,7 +92,7 @@ impl Walk {
             if stack == 0 || stack >= limits.stack || self.found.leaves.len() >= limits.leaf_pairs {
                 return;
             }
-            if rules.interrupt.is_set() || stack > 1 && (rules.is_anyone_idle)() {
+            if rules.interrupt.is_set() || is_any && stack > 1 && (rules.is_anyone_idle)() {
                 return;
             }
             self.found.nodes.take_last(limits.batch, &mut self.batch);

@@ -217,7 +217,7 @@ pub(crate) fn check(
         skip_degenerate,
         places,
         frames: frames.map(range_of_frames).transpose()?,
-        options: with_threads(&threads)?,
+        options: with_threads(threads)?,
         ..Settings::default()
     };
     let paths = paths.into_iter().map(|path| Name::Path(path).into_text());

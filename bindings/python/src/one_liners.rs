@@ -90,7 +90,7 @@ pub(crate) fn intersection_pairs(
     meshes: &Bound<'_, PyTuple>,
     threads: Threads,
 ) -> Result<Rows<u32, 2>> {
-    let options = with_threads(&threads)?;
+    let options = with_threads(threads)?;
     let [a, b] = two(meshes)?;
     let (a, b) = (a.get()?, b.get()?);
     py.detach(|| {
@@ -116,7 +116,7 @@ pub(crate) fn self_intersection_pairs(
     mesh: &Bound<'_, PyTuple>,
     threads: Threads,
 ) -> Result<Rows<u32, 2>> {
-    let options = with_threads(&threads)?;
+    let options = with_threads(threads)?;
     let mesh = one(mesh)?;
     let mesh = mesh.get()?;
     py.detach(|| {

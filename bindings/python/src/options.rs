@@ -72,14 +72,14 @@ impl Keywords {
             )?);
         }
         options.broad_phase = named("broad", &self.broad, BROAD_PHASES)?;
-        options.threads = with_threads(&self.threads)?.threads;
+        options.threads = with_threads(self.threads.clone())?.threads;
         options.mending = self.mending;
         Ok(options)
     }
 }
 
 /// The default options with the number of threads that a call was given.
-pub(crate) fn with_threads(threads: &Threads) -> Result<Options> {
+pub(crate) fn with_threads(threads: Threads) -> Result<Options> {
     let mut options = Options::default();
     match threads {
         Threads::Named(name) if name == "all" => return Ok(Options::all_threads()),
@@ -87,7 +87,7 @@ pub(crate) fn with_threads(threads: &Threads) -> Result<Options> {
             return Err(refused!(BadOption: "threads is {name:?}; it can be a number or \"all\""));
         }
         Threads::Count(count) => {
-            options.threads = at_least_one("threads", *count)?.try_into().map_err(
+            options.threads = at_least_one("threads", count)?.try_into().map_err(
                 |_| refused!(BadOption: "threads is larger than this machine can count"),
             )?;
         }

@@ -216,6 +216,12 @@ fn every_error_says_what_to_do_next() {
         ),
         ("check a.obj --hits x.obj", "must end in .vtp or .vtu"),
         ("check a.obj --hits no/x.vtp", "make its folder first"),
+    ]);
+}
+
+#[test]
+fn every_error_of_other_commands_says_what_to_do_next() {
+    says_next(&[
         ("bench experiment-2", "all and cores; choose one of these\n"),
         ("bench splits --json no/x.json", "make its folder first"),
         ("bench splits --json .", "name a file in it"),

@@ -45,7 +45,7 @@ impl Pass {
     }
 
     /// Appends the pairs of the next rows, in order: at least one row, about `most` pairs at once.
-    /// Returns how many nodes the pass has tested if it is done. The tree is none if all boxes are
+    /// Returns how many nodes the pass has tested when it is done. The tree is none if all boxes are
     /// to be compared.
     pub(super) fn next(
         &mut self,
@@ -56,31 +56,34 @@ impl Pass {
         pairs: &mut Vec<Overlap>,
     ) -> Option<usize> {
         let end = boxes.len() as u32;
-        if self.next == end {
-            return Some(self.tested);
-        }
         let left = (end - self.next) as usize;
         let nanoseconds = Grain::ROWS.time(left);
         let threads = executor.threads_for(nanoseconds);
-        let (jobs, size, most) = if threads == 1 {
-            (1, left, most)
-        } else {
-            let jobs = JOBS_A_THREAD * threads;
-            let most = most.div_ceil(jobs);
-            // Half of what it takes at most, so that few rows are found in vain.
-            let room = (most / (1 + self.pairs_a_row)).max(1);
-            (jobs, left.div_ceil(jobs).max(FEWEST).min(room), 2 * most)
-        };
-        let jobs = jobs.min(left.div_ceil(size));
-        self.jobs
-            .resize_with(jobs.max(self.jobs.len()), Rows::default);
-        let starts = (self.next..end).step_by(size);
-        for (job, start) in self.jobs[..jobs].iter_mut().zip(starts) {
-            job.begin(start..end.min(start.saturating_add(size as u32)));
+        let (mut jobs, mut size, mut most_of_job) = (1, left, most);
+        if threads > 1 {
+            jobs = JOBS_A_THREAD * threads;
+            most_of_job = 2 * most.div_ceil(jobs);
+            // Half of that is expected, so that few rows are found in vain.
+            let room = most_of_job / (2 + 2 * self.pairs_a_row);
+            size = left.div_ceil(jobs).max(FEWEST).min(room.max(1));
+            jobs = jobs.min(left.div_ceil(size));
         }
-        executor.run(&mut self.jobs[..jobs], nanoseconds, |_, job| {
-            job.find((executor, instructions), tree, boxes, (most, keep));
-        });
+        if self.jobs.len() < jobs {
+            self.jobs.resize_with(jobs, Rows::default);
+        }
+        let mut start = self.next;
+        for job in &mut self.jobs[..jobs] {
+            let bodies = start..end.min(start.saturating_add(size as u32));
+            start = bodies.end;
+            job.begin(bodies);
+        }
+        let find = |job: &mut Rows| {
+            job.find((executor, instructions), tree, boxes, (most_of_job, keep));
+        };
+        match &mut self.jobs[..jobs] {
+            [job] => find(job),
+            jobs => executor.run(jobs, nanoseconds, |_, job| find(job)),
+        }
         let (first, before) = (self.next, pairs.len());
         for job in &self.jobs[..jobs] {
             pairs.extend_from_slice(&job.pairs);
@@ -91,9 +94,11 @@ impl Pass {
                 break;
             }
         }
-        let rows = (self.next - first) as usize;
-        self.pairs_a_row = (pairs.len() - before).checked_div(rows).unwrap_or(0);
-        None
+        if threads > 1 {
+            let rows = (self.next - first).max(1);
+            self.pairs_a_row = (pairs.len() - before) / rows as usize;
+        }
+        (self.next == end).then_some(self.tested)
     }
 }
 

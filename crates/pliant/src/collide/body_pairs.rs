@@ -214,22 +214,24 @@ impl BodyPairs {
         for list in [&mut *exact, &mut *broad] {
             list.resize(ranks.len(), Aabb::EMPTY);
         }
+        let copy = |ranks: &[Place], exact: &mut [Aabb], broad: &mut [Aabb]| {
+            for ((&place, exact), broad) in ranks.iter().zip(exact).zip(broad) {
+                let body = bodies.at(place);
+                *exact = body.box_for(boxes, origin);
+                let loose = body.loose_box(origin);
+                *broad = loose.map_or(*exact, |loose| boxes.of(loose));
+            }
+        };
+        let nanoseconds = Grain::BOXES.time(ranks.len());
+        if !executor.pays(nanoseconds) {
+            return copy(ranks, exact, broad);
+        }
         let size = Grain::BOXES.items;
         let lists = exact.chunks_mut(size).zip(broad.chunks_mut(size));
-        let jobs = ranks.chunks(size).zip(lists);
-        executor.run_each(
-            jobs,
-            Grain::BOXES,
-            |(places, (exact, broad))| {
-                for ((&place, exact), broad) in places.iter().zip(&mut **exact).zip(&mut **broad) {
-                    let body = bodies.at(place);
-                    *exact = body.box_for(boxes, origin);
-                    let loose = body.loose_box(origin);
-                    *broad = loose.map_or(*exact, |loose| boxes.of(loose));
-                }
-            },
-            |_| {},
-        );
+        let mut jobs: Vec<_> = ranks.chunks(size).zip(lists).collect();
+        executor.run(&mut jobs, nanoseconds, |_, (ranks, (exact, broad))| {
+            copy(ranks, exact, broad);
+        });
     }
 }
 

@@ -241,7 +241,9 @@ impl Executor<'_> {
             return;
         }
         for mut job in jobs {
-            self.run(std::slice::from_mut(&mut job), 0, |_, job| work(job));
+            if !self.is_interrupted() {
+                work(&mut job);
+            }
             done(&job);
         }
     }

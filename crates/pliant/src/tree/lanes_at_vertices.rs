@@ -8,7 +8,6 @@ use crate::ids::{BlockId, LeafId, TreeVertex};
 use crate::mesh::Order;
 use crate::threads::Budget;
 use std::mem::replace;
-use std::ops::Range;
 
 /// Leaves between two checks of the budget.
 const AT_ONCE: usize = 64;
@@ -23,10 +22,9 @@ const NONE: BlockId = BlockId(u32::MAX);
 pub(super) struct LanesAtVertices {
     /// Where the row of each vertex begins, and the end of the last.
     starts: Vec<u32>,
-    /// Blocks of all rows, one row after the other, ascending in each.
-    blocks: Vec<BlockId>,
-    /// For each entry of `blocks`, the lanes of the triangles that have a corner at the vertex.
-    lanes: Vec<u8>,
+    /// Blocks of all rows, one row after the other, ascending in each. With each go the lanes of
+    /// its triangles that have a corner at the vertex.
+    blocks: Vec<(BlockId, u8)>,
     stage: Stage,
     /// First leaf that was not gone through in this stage.
     next: usize,
@@ -50,7 +48,6 @@ impl LanesAtVertices {
         Self {
             starts: vec![0; order.used_vertices() + 1],
             blocks: Vec::new(),
-            lanes: Vec::new(),
             stage: Stage::Counting,
             next: 0,
             last: vec![NONE; order.used_vertices()],
@@ -76,19 +73,19 @@ impl LanesAtVertices {
                 starts[vertex] += starts[vertex - 1];
             }
             let count = starts[starts.len() - 1] as usize;
-            (self.blocks, self.lanes) = (vec![BlockId(0); count], vec![0; count]);
+            self.blocks = vec![(NONE, 0); count];
             last.fill(NONE);
             (self.stage, *next) = (Stage::Filling, 0);
         }
         if self.stage == Stage::Filling {
-            let (blocks, lanes) = (&mut self.blocks, &mut self.lanes);
+            let blocks = &mut self.blocks;
             let is_done = for_each_corner(leaves, order, next, budget, |vertex, block, lane| {
                 let place = &mut starts[vertex];
                 if replace(&mut last[vertex], block) != block {
-                    blocks[*place as usize] = block;
+                    blocks[*place as usize].0 = block;
                     *place += 1;
                 }
-                lanes[*place as usize - 1] |= 1 << lane;
+                blocks[*place as usize - 1].1 |= 1 << lane;
             });
             if !is_done {
                 return false;
@@ -100,22 +97,11 @@ impl LanesAtVertices {
         true
     }
 
-    /// Returns how many blocks have triangles at a vertex. O(1).
-    pub(super) fn count(&self, vertex: TreeVertex) -> usize {
-        self.of(vertex).len()
-    }
-
-    /// Returns the blocks at a vertex, ascending, each with its lanes there.
-    pub(super) fn at(&self, vertex: TreeVertex) -> impl Iterator<Item = (BlockId, u8)> {
-        let own = self.of(vertex);
-        let blocks = self.blocks[own.clone()].iter().copied();
-        blocks.zip(self.lanes[own].iter().copied())
-    }
-
-    /// Returns the row of a vertex.
-    fn of(&self, vertex: TreeVertex) -> Range<usize> {
+    /// Returns the blocks at a vertex, ascending, each with its lanes there. O(1).
+    #[inline]
+    pub(super) fn at(&self, vertex: TreeVertex) -> &[(BlockId, u8)] {
         let vertex = vertex.index();
-        self.starts[vertex] as usize..self.starts[vertex + 1] as usize
+        &self.blocks[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
     }
 }
 
@@ -150,7 +136,7 @@ fn for_each_corner(
     true
 }
 
-held!(LanesAtVertices: starts[], blocks[], lanes[], last[]);
+held!(LanesAtVertices: starts[], blocks[], last[]);
 
 #[cfg(test)]
 mod tests {
@@ -175,9 +161,9 @@ mod tests {
             &[(1, 0b01)],
         ];
         for (vertex, expected) in (0..).map(TreeVertex).zip(expected) {
-            let found = lanes.at(vertex).map(|(block, lanes)| (block.0, lanes));
+            let found = lanes.at(vertex).iter();
+            let found = found.map(|&(block, lanes)| (block.0, lanes));
             assert!(found.eq(expected.iter().copied()), "{vertex:?}");
-            assert_eq!(lanes.count(vertex), expected.len());
         }
     }
 }

@@ -262,11 +262,12 @@ impl NeighboursBuilder {
         list.push((block, 0));
         for (lane, place) in own.enumerate() {
             for vertex in order.corners(TreeTriangle(place as u32)) {
-                if at_vertices.count(vertex) > MOST_AT_A_VERTEX {
+                let at_vertex = at_vertices.at(vertex);
+                if at_vertex.len() > MOST_AT_A_VERTEX {
                     list.clear();
                     return;
                 }
-                for (other, other_lanes) in at_vertices.at(vertex) {
+                for &(other, other_lanes) in at_vertex {
                     if other.0 < block {
                         continue;
                     }

@@ -44,9 +44,10 @@ impl Pass {
         (self.next, self.tested) = (0, 0);
     }
 
-    /// Appends the pairs of the next rows, in order: at least one row, about `most` pairs at once.
-    /// Returns how many nodes the pass has tested when it is done. The tree is none if all boxes are
-    /// to be compared.
+    /// Appends the pairs of the next rows, in order: of one row at least, about `most` at once.
+    ///
+    /// Returns how many nodes the pass has tested when it is done. Without a tree all boxes are
+    /// compared.
     pub(super) fn next(
         &mut self,
         (executor, instructions): (Executor, Instructions),

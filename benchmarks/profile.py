@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Profiles a step: instructions and time, by phase and by unit of work.
 
-    cargo build --release -p pliant-bench --example windows
+    CARGO_PROFILE_RELEASE_DEBUG=line-tables-only cargo build --release -p pliant-bench --example windows
     python3 benchmarks/profile.py target/release/examples/windows hard [ROUNDS]
 
 callgrind (valgrind) counts instructions; perf samples time, where it is installed. Both are

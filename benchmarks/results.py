@@ -12,6 +12,7 @@ stands for the date in names of records:
     $B when --json when-DATE.json > when-DATE.txt
     $B close --json close-DATE.json > close-DATE.txt
     $B change --rounds 1 --json change-DATE.json > change-DATE.txt
+    $B cores --json cores-DATE.json > cores-DATE.txt
     P=../../target/ipctk/bin/python
     $P ../compare_with_ipctk.py > ipctk-DATE.txt
     $P ../compare_impacts_with_ipctk.py > impacts-ipctk-DATE.txt
@@ -294,6 +295,8 @@ def page(record, date):
     edits = newest("edits-*.txt")
     processor = record.machine["processor"]
     cores = record.machine["cores"]
+    cores_file = newest("cores-*.json")
+    cores_of, wait, threads = more_threads(cores_file)
     return f"""# What the paper claims, what we aim at, and what we find
 
 From the full run of {date} ([text](records/{date}.txt), [JSON](records/{date}.json)): one thread \
@@ -438,12 +441,37 @@ thousand edits:
 {edits.read_text().strip()}
 ```
 
+## More threads
+
+A step with positions and lists, `pliant bench cores` ([text](records/{cores_file.stem}.txt), \
+[JSON](records/{cores_file.name}), {cores_of['cores']} cores of an {cores_of['processor']}). Jobs \
+of one thread are replayed on many; an empty part costs two threads {wait:.1f} us. The columns \
+before the last say what holds 16 workers back, in shares of their time:
+
+| | question | ms on 1 | by replay: x2 | x4 | x8 | x16 | x64 | serial | uneven | waits | measured |
+|---|---|---|---|---|---|---|---|---|---|---|---|
+{threads}
+
 ## Exact contact
 
 A candidate of coplanar grids: {figure('degenerate', 'coplanar grids', 'the cost')}. Of two spheres:
 {figure('degenerate', 'two spheres, at the origin', 'the cost')}. That \
 is {figure('degenerate', 'at most ten times')} as much.
 """
+
+
+def more_threads(file):
+    """Machine, cost of a part in microseconds, and rows of the table of many threads."""
+    record = json.loads(file.read_text())
+    rows = []
+    for one in record["measured"]:
+        back = one["held_back"]
+        shares = [f"{100 * back[name]:.0f} %" for name in ("serial", "uneven", "waits")]
+        cells = [one["scene"], one["question"], f"{one['one_thread_ms']:.3f}"]
+        cells += [f"{times:.1f}" for times in one["predicted"]] + shares
+        cells.append(", ".join(f"x{count} {times:.2f}" for count, times in one["measured"]))
+        rows.append("| " + " | ".join(cells) + " |")
+    return record["cores_of"], 1e3 * record["wait_ms"], "\n".join(rows)
 
 
 def newest(pattern):

@@ -14,6 +14,8 @@ use std::time::{Duration, Instant};
 
 /// Workers of a replay.
 pub const WORKERS: [usize; 5] = [2, 4, 8, 16, 64];
+/// Workers for which it is said what holds them back.
+pub const MANY: usize = 16;
 /// Threads for which work is cut while it is recorded.
 const RECORDED: usize = 64;
 /// Margin of candidates, in mean lengths of an edge.
@@ -87,8 +89,21 @@ pub struct Measured {
     pub parts: usize,
     /// Times faster that the replay predicts, for [`WORKERS`].
     pub predicted: Vec<f64>,
+    /// Limits of [`MANY`] workers, as shares of the time that the replay predicts for them.
+    pub held_back: HeldBack,
     /// Threads, and times faster that was measured with them.
     pub measured: Vec<(usize, f64)>,
+}
+
+/// Shares of the time of a step on [`MANY`] workers that more of them would not take away.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct HeldBack {
+    /// Work between jobs.
+    pub serial: f64,
+    /// Waits for the last job of a part, and threads that its work does not pay for.
+    pub uneven: f64,
+    /// Costs of handing parts to threads.
+    pub waits: f64,
 }
 
 /// Milliseconds that a part without work costs two threads: the median of some runs.
@@ -149,10 +164,20 @@ pub fn measure(
             let work = serial + sum(&|part| part.jobs.iter().sum());
             let longest = sum(&|part| part.jobs.iter().copied().max().unwrap_or_default());
             let replayed = |workers| {
-                let parts = parts
-                    .iter()
-                    .map(|part| replay(part, workers, 1e6 * wait_ms));
-                1e-6 * parts.sum::<f64>() / steps
+                let mut times = [0.0; 3];
+                for part in &parts {
+                    let of_part = replay(part, workers, 1e6 * wait_ms);
+                    let sums = times.iter_mut().zip(of_part);
+                    sums.for_each(|(sum, time)| *sum += 1e-6 * time / steps);
+                }
+                times
+            };
+            let [_, shared, waits] = replayed(MANY);
+            let time = serial + shared + waits;
+            let held_back = HeldBack {
+                serial: serial / time,
+                uneven: (shared - (work - serial) / MANY as f64) / time,
+                waits: waits / time,
             };
             let faster = times.iter().map(|time| one / time);
             let measured = counts.iter().copied().zip(faster).skip(1);
@@ -164,7 +189,10 @@ pub fn measure(
                 span_ms: serial + longest,
                 serial_share: serial / work,
                 parts: parts.iter().filter(|part| part.most_threads > 1).count() / played.steps(),
-                predicted: WORKERS.map(|workers| work / replayed(workers)).to_vec(),
+                predicted: WORKERS
+                    .map(|workers| work / replayed(workers).iter().sum::<f64>())
+                    .to_vec(),
+                held_back,
                 measured: measured.collect(),
             };
             show(&measured);
@@ -174,8 +202,8 @@ pub fn measure(
     all
 }
 
-/// Nanoseconds that a part takes a number of workers.
-fn replay(part: &RecordedPart, workers: usize, wait: f64) -> f64 {
+/// Nanoseconds that a part takes a number of workers: of serial work, of jobs, of waits.
+fn replay(part: &RecordedPart, workers: usize, wait: f64) -> [f64; 3] {
     let workers = workers.min(part.most_threads).max(1);
     let mut ends = vec![0; workers];
     for job in &part.jobs {
@@ -183,7 +211,7 @@ fn replay(part: &RecordedPart, workers: usize, wait: f64) -> f64 {
         *first += job;
     }
     let last = ends.into_iter().max().unwrap_or_default();
-    (part.serial + last) as f64 + wait * (workers - 1) as f64
+    [part.serial as f64, last as f64, wait * (workers - 1) as f64]
 }
 
 fn milliseconds(time: Duration) -> f64 {
@@ -358,7 +386,8 @@ mod tests {
             most_threads: 2,
         };
         let times = [1, 2, 16].map(|workers| replay(&part, workers, 0.5));
-        assert_eq!(times, [15.0, 11.5, 11.5]);
+        let expected = [[5.0, 10.0, 0.0], [5.0, 6.0, 0.5], [5.0, 6.0, 0.5]];
+        assert_eq!(times, expected);
     }
 
     #[test]

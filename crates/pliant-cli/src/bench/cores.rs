@@ -5,7 +5,7 @@ use crate::outcome::Outcome;
 use crate::output::{self, Overwrite};
 use crate::table::table;
 use crate::terminal::{print_all, progress};
-use pliant_bench::cores::{COUNT, Measured, WORKERS, measure, wait_ms};
+use pliant_bench::cores::{COUNT, HeldBack, MANY, Measured, WORKERS, measure, wait_ms};
 use pliant_bench::machine::this_machine;
 use pliant_bench::record::Machine;
 use serde::Serialize;
@@ -46,7 +46,8 @@ pub(super) fn cores(asked: &Asked) -> anyhow::Result<Outcome> {
     let mut header = vec!["scene", "question", "ms on 1", "serial", "parts", "span ms"];
     let predicted = WORKERS.map(|workers| format!("x{workers} by replay"));
     header.extend(predicted.iter().map(String::as_str));
-    header.push("measured");
+    let held_back = format!("x{MANY}: serial, uneven, waits");
+    header.extend([&held_back, "measured"]);
     let mut rows = table(&header);
     let bar = progress(COUNT as u64, asked.is_quiet);
     let wait_ms = wait_ms();
@@ -95,6 +96,13 @@ fn row(one: &Measured) -> Vec<String> {
         format!("{:.3}", one.span_ms),
     ];
     row.extend(one.predicted.iter().copied().map(times));
+    let HeldBack {
+        serial,
+        uneven,
+        waits,
+    } = one.held_back;
+    let shares = [serial, uneven, waits].map(|share| format!("{:.0}", 100.0 * share));
+    row.push(format!("{} %", shares.join(", ")));
     let measured = one.measured.iter();
     let measured = measured.map(|&(threads, faster)| format!("x{threads} {faster:.2}"));
     row.push(measured.collect::<Vec<_>>().join(", "));

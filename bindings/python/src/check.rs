@@ -167,11 +167,18 @@ impl Name {
 /// Raises pliant.Error: CannotRead, BadOption, TooLarge, BadPosition. What is odd but no error,
 /// such as numbered files that are given one by one, is a UserWarning.
 #[pyfunction]
-#[pyo3(signature = (
-    *paths, itself=false, within=None, crossing=false, swept=false, first=false, weld=true,
-    weld_tolerance=0.0, split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false,
-    places=false, frames=None, clip=None, fps=30.0, threads=Threads::Count(1)
-))]
+#[pyo3(
+    signature = (
+        *paths, itself=false, within=None, crossing=false, swept=false, first=false, weld=true,
+        weld_tolerance=0.0, split=None, groups=None, ignore=None, baseline=None,
+        skip_degenerate=false, places=false, frames=None, clip=None, fps=30.0,
+        threads=Threads::Count(1)
+    ),
+    text_signature = "(*paths, itself=False, within=None, crossing=False, swept=False, \
+        first=False, weld=True, weld_tolerance=0.0, split=None, groups=None, ignore=None, \
+        baseline=None, skip_degenerate=False, places=False, frames=None, clip=None, fps=30.0, \
+        threads=1)"
+)]
 #[expect(
     clippy::too_many_arguments,
     clippy::fn_params_excessive_bools,

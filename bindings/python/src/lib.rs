@@ -13,6 +13,7 @@
 //! | `selection.rs` | `Selection`, and the numbers of bodies |
 //! | `state.rs` | a world whose precision the first body fixes, for one call at a time |
 //! | `edit.rs` | `Edit`: changes of a mesh, made all at once |
+//! | `changes.rs` | `Changes`: hits that began, persist, ended |
 //! | `pickled.rs` | the state that pickle writes |
 //! | `queries/mod.rs` | the part that all kinds of queries share |
 //! | `queries/pairs.rs` | `Query`: intersections, and candidates |
@@ -32,6 +33,7 @@
 
 mod answers;
 mod arrays;
+mod changes;
 mod check;
 mod copies;
 mod edit;
@@ -55,6 +57,7 @@ mod _pliant {
 
     #[pymodule_export]
     use crate::{
+        changes::Changes,
         check::{Check, check},
         edit::Edit,
         one_liners::{

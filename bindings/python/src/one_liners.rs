@@ -84,7 +84,7 @@ fn triangles_of_all(state: &mut State, of: Selection) -> Result<Rows<u32, 2>> {
 ///
 /// Cost: building both trees, O(m log m); ask again and again with a World.
 #[pyfunction]
-#[pyo3(signature = (*meshes, threads=Threads::Count(1)))]
+#[pyo3(signature = (*meshes, threads=Threads::Count(1)), text_signature = "(*meshes, threads=1)")]
 pub(crate) fn intersection_pairs(
     py: Python<'_>,
     meshes: &Bound<'_, PyTuple>,
@@ -110,7 +110,7 @@ pub(crate) fn intersection_pairs(
 /// Triangles that share a vertex are left out. Nothing is welded: weld seams first, or their sides
 /// are reported. Arguments, errors and cost are as for pliant.intersection_pairs.
 #[pyfunction]
-#[pyo3(signature = (*mesh, threads=Threads::Count(1)))]
+#[pyo3(signature = (*mesh, threads=Threads::Count(1)), text_signature = "(*mesh, threads=1)")]
 pub(crate) fn self_intersection_pairs(
     py: Python<'_>,
     mesh: &Bound<'_, PyTuple>,

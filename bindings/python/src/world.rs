@@ -115,10 +115,14 @@ type Maybe<'py> = Result<Option<Any<'py>>>;
 impl World {
     #[new]
     #[expect(clippy::too_many_arguments, reason = "they are keywords")]
-    #[pyo3(signature = (
-        *, degree=8, partition="balanced", leaf_size=8, update="hybrid", level=None, broad="auto",
-        threads=Threads::Count(1), mending=false
-    ))]
+    #[pyo3(
+        signature = (
+            *, degree=8, partition="balanced", leaf_size=8, update="hybrid", level=None,
+            broad="auto", threads=Threads::Count(1), mending=false
+        ),
+        text_signature = "(*, degree=8, partition='balanced', leaf_size=8, update='hybrid', \
+            level=None, broad='auto', threads=1, mending=False)"
+    )]
     fn new(
         degree: i64,
         partition: &str,

@@ -142,8 +142,8 @@ pub use threads::{Clock, RecordedPart};
 #[doc(hidden)]
 pub use world::pair_impacts;
 pub use world::{
-    FreeStep, Fused, InContact, Interruptible, Piece, Query, Scalar, World, edge_edge_impacts,
-    vertex_triangle_impacts,
+    Changed, Changes, Ended, FreeStep, Fused, InContact, Interruptible, Listed, Piece, Query,
+    Scalar, Thing, World, edge_edge_impacts, vertex_triangle_impacts,
 };
 
 /// Brute-force references of every kind of question: slow, and obviously right.

@@ -13,6 +13,7 @@ A hit is a row of four numbers, uint32: body, triangle, body, triangle. Rows are
   self_intersection_pairs   one mesh, in one call
   intersection_pairs        two meshes, in one call
   vertex_triangle_impacts, edge_edge_impacts    when single pairs of moving elements meet
+  Changes                   hits that began, persist and ended since the last list
   check                     files, frame by frame
   Error                     every refusal, with its kind and facts
   reference                 intersections by brute force, to compare with
@@ -27,6 +28,7 @@ help(pliant.World) lists all questions, with shapes, dtypes, errors and cost.
 
 from . import reference
 from ._pliant import (
+    Changes,
     Check,
     CloseQuery,
     ContactQuery,
@@ -45,6 +47,7 @@ from ._pliant import (
 from ._types import (
     Body,
     BodyThere,
+    Changed,
     ClosePair,
     ClosePairs,
     Contact,
@@ -76,6 +79,8 @@ from ._types import (
 __all__ = [
     "Body",
     "BodyThere",
+    "Changed",
+    "Changes",
     "Check",
     "ClosePair",
     "ClosePairs",

@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._types import (
     Body,
+    Changed,
     ClosePair,
     ClosePairs,
     Contact,
@@ -48,6 +49,7 @@ from ._types import (
 )
 
 __all__ = [
+    "Changes",
     "Check",
     "CloseQuery",
     "ContactQuery",
@@ -250,6 +252,23 @@ class World:
         """Checks every invariant of every tree, for tests and bug reports. Should never fail."""
 
 @final
+class Changes:
+    """Memory of the last list of hits, to which the next is compared: what began, persists, ended."""
+
+    def __new__(cls, kind: Literal["triangles", "vertex-triangle", "edge-edge"] = "triangles") -> Changes: ...
+    def update(self, rows: NDArray[np.uint32]) -> Changed:
+        """Compares a list with the last one, and remembers it; returns a Changed."""
+    def edited(self, body: SupportsIndex, edited: Edited) -> None:
+        """Notes an edit of a body between two lists: takes the Edited that World.apply or weld gave."""
+    def split(self, body: SupportsIndex, pieces: Iterable[Piece]) -> None:
+        """Notes that World.split made pieces of a body: takes the list of Piece that it gave."""
+    def fused(self, kept: SupportsIndex, gone: SupportsIndex, fused: Fused) -> None:
+        """Notes that World.fuse put body gone into kept: takes the Fused that it gave."""
+    def edges_edited(
+        self, body: SupportsIndex, before: NDArray[np.uint32], after: NDArray[np.uint32]
+    ) -> None:
+        """Notes new edges of a body between two lists: takes World.edges before and after an edit."""
+
 class CloseQuery:
     """A question which elements are close, answered by all() or first()."""
 

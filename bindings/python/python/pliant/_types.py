@@ -195,6 +195,19 @@ class Contact(NamedTuple):
     kind: ContactKind
 
 
+class Changed(NamedTuple):
+    """Changes from the last list of hits to a new one. Rows of it that did not begin persist."""
+
+    numbers: NDArray[np.uint64]
+    """(k,): the number of each row, which it keeps while it persists."""
+    began: NDArray[np.uint64]
+    """(b,): places in the new list of the rows that began, ascending."""
+    ended: NDArray[np.uint32]
+    """(e, 4): rows that ended, by the numbers that their things had last. Of one kind, the lower is first."""
+    ended_numbers: NDArray[np.uint64]
+    """(e,): the number of each, ascending."""
+
+
 class Edited(NamedTuple):
     """Changes that an edit has made, by number: five arrays (k,), each ascending."""
 
@@ -485,7 +498,7 @@ class OpenMesh(Protocol):
 
 _PUBLIC = (
     *(Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Contact, ContactKind, Contacts),
-    *(Edited, Fused, Piece, Impact, Impacts, FreeStep, TreeBoxes, TreeShape, Statistics),
+    *(Changed, Edited, Fused, Piece, Impact, Impacts, FreeStep, TreeBoxes, TreeShape, Statistics),
     *(Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Frame, Mesh, OpenMesh),
 )
 for _public in _PUBLIC:

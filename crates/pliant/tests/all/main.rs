@@ -12,6 +12,7 @@ mod common;
 mod boxes;
 mod boxes_of_levels;
 mod candidates;
+mod changes;
 mod circles;
 mod clearance;
 mod cloth_on_ball;

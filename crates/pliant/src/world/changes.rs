@@ -1,0 +1,324 @@
+//! Changes of a list of hits from one step to the next: hits that began, persist, ended.
+//!
+//! Idea: one merge of two sorted lists. Invariant: a hit keeps its number while it is in every list
+//! and its things are the same, whatever numbers an edit gives these. The caller holds the state,
+//! so a world has no hidden history.
+
+use super::pieces::{Fused, Piece};
+use crate::edit::Edited;
+use crate::ids::BodyId;
+use crate::queries::{
+    CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, Contact, EdgeEdge, EdgeEdgeImpact, Pair,
+    VertexTriangle, VertexTriangleImpact,
+};
+use std::collections::BTreeMap;
+use std::marker::PhantomData;
+
+/// Kind of a thing that a hit names by its number in a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Thing {
+    /// A triangle.
+    Triangle,
+    /// A vertex.
+    Vertex,
+    /// An edge, as [`World::edges`](crate::World::edges) numbers it.
+    Edge,
+}
+
+/// Hit of a query: two things, each with a body and its number there. All hits are.
+pub trait Listed {
+    /// Kinds of the two things.
+    const THINGS: [Thing; 2];
+
+    /// The two things, in the order in which the hit names them.
+    fn things(&self) -> [(BodyId, u32); 2];
+}
+
+macro_rules! listed {
+    ($($hit:ty: [$a:ident, $b:ident] $(. $pair:ident)?;)*) => {
+        $(impl Listed for $hit {
+            const THINGS: [Thing; 2] = [Thing::$a, Thing::$b];
+
+            #[inline]
+            fn things(&self) -> [(BodyId, u32); 2] {
+                let [body_a, a, body_b, b] = (*self) $(. $pair)? .into();
+                [(BodyId(body_a), a), (BodyId(body_b), b)]
+            }
+        })*
+    };
+}
+
+listed! {
+    Pair: [Triangle, Triangle];
+    Contact: [Triangle, Triangle] .pair;
+    VertexTriangle: [Vertex, Triangle];
+    EdgeEdge: [Edge, Edge];
+    CloseVertexTriangle: [Vertex, Triangle] .pair;
+    CloseEdgeEdge: [Edge, Edge] .pair;
+    CloseTriangles: [Triangle, Triangle] .pair;
+    VertexTriangleImpact: [Vertex, Triangle] .pair;
+    EdgeEdgeImpact: [Edge, Edge] .pair;
+}
+
+/// Two things of one hit. Of one kind, the lower comes first.
+type Key = [(BodyId, u32); 2];
+
+fn key<H: Listed>(mut things: Key) -> Key {
+    let [a, b] = H::THINGS;
+    if a == b {
+        things.sort_unstable();
+    }
+    things
+}
+
+/// Memory of the last list of hits, to which the next is compared.
+///
+/// It compares lists of one kind and of one question. Each hit has a number, from 0 on, which it
+/// keeps while it persists and which is never used again. A list is a set: any order will do, and
+/// the sorted one of [`Query::all`](crate::Query::all) is quickest.
+///
+/// ```
+/// use pliant::{Changes, Selection, World};
+///
+/// let mut world = World::<f32>::new();
+/// let at = |z: f32| [[0.0, 0.0, z], [4.0, 0.0, z], [0.0, 4.0, z + 1.0]];
+/// world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.5], [4.0, 0.0, 0.5], [0.0, 4.0, 0.5]])?;
+/// let leaf = world.add(&[[0, 1, 2]], &at(9.0))?;
+/// let mut changes = Changes::new();
+/// for (z, began, ended) in [(9.0, 0, 0), (0.1, 1, 0), (0.2, 0, 0), (9.0, 0, 1)] {
+///     world.set_positions(leaf, &at(z))?;
+///     let changed = changes.update(world.intersections(Selection::World).all()?);
+///     assert_eq!([changed.began.len(), changed.ended.len()], [began, ended]);
+/// }
+/// # Ok::<(), pliant::Error>(())
+/// ```
+///
+/// Things keep their numbers when a mesh is edited, except where a number is used again. Tell it
+/// of each edit between two lists: [`edited`](Self::edited), [`split`](Self::split),
+/// [`fused`](Self::fused), or [`follow`](Self::follow) for numbers of edges and of your own.
+///
+/// Memory: some 70 bytes a hit of the longest list.
+#[derive(Clone, Debug)]
+pub struct Changes<H> {
+    memory: Memory,
+    kind: PhantomData<fn(&H)>,
+}
+
+/// Memory of hits of any kind.
+#[derive(Clone, Debug, Default)]
+struct Memory {
+    /// Hits of the last list and their numbers, sorted unless things were renamed since.
+    before: Vec<(Key, u64)>,
+    /// Number of the next hit that begins.
+    next: u64,
+    /// Hits with things that are gone since the last list.
+    gone: Vec<Ended>,
+    /// Scratch: hits of the new list with their places in it, and then with their numbers.
+    places: Vec<(Key, usize)>,
+    now: Vec<(Key, u64)>,
+    numbers: Vec<u64>,
+    began: Vec<usize>,
+    ended: Vec<Ended>,
+}
+
+/// Changes from the last list of hits to a new one. Hits of it that did not begin persist.
+#[derive(Clone, Copy, Debug)]
+pub struct Changed<'c> {
+    /// Number of each hit, in the order of the new list.
+    pub numbers: &'c [u64],
+    /// Places in the new list of the hits that began, ascending.
+    pub began: &'c [usize],
+    /// Hits that ended, by ascending numbers.
+    pub ended: &'c [Ended],
+}
+
+/// A hit that ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Ended {
+    /// Number that it had.
+    pub number: u64,
+    /// The two things, by the numbers that they had last. Of one kind, the lower comes first.
+    pub things: [(BodyId, u32); 2],
+}
+
+impl<H> Default for Changes<H> {
+    fn default() -> Self {
+        Self {
+            memory: Memory::default(),
+            kind: PhantomData,
+        }
+    }
+}
+
+impl<H: Listed> Changes<H> {
+    /// Memory of no hits: all of the first list begin.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Compares a list with the last one, and remembers it.
+    ///
+    /// A hit that is listed twice is one. Cost: O(n) for sorted lists, some nanoseconds a hit.
+    pub fn update(&mut self, list: &[H]) -> Changed<'_> {
+        let keys = list.iter().map(|hit| key::<H>(hit.things()));
+        self.memory.places.clear();
+        self.memory.places.extend(keys.zip(0..));
+        self.memory.compare()
+    }
+
+    /// Notes an edit of a body between two lists: numbers that were removed or used again are other
+    /// things.
+    ///
+    /// Hits with these end, though another under the same numbers may begin. Numbers of edges are
+    /// not in an [`Edited`]: see [`follow`](Self::follow). Cost: O(n log n) for n hits.
+    pub fn edited(&mut self, body: BodyId, edited: &Edited) {
+        let is_other = |thing: Thing, number: u32| {
+            let lists = match thing {
+                Thing::Triangle => [&edited.new_triangles, &edited.removed_triangles],
+                Thing::Vertex => [&edited.new_vertices, &edited.removed_vertices],
+                Thing::Edge => return false,
+            };
+            lists.iter().any(|list| list.binary_search(&number).is_ok())
+        };
+        self.follow(|thing, of, number| {
+            (of != body || !is_other(thing, number)).then_some((of, number))
+        });
+    }
+
+    /// Notes that [`World::split`](crate::World::split) made pieces of a body. Numbers of edges are
+    /// not in a [`Piece`]: hits with edges of these pieces end.
+    pub fn split(&mut self, body: BodyId, pieces: &[Piece]) {
+        let triangles = new_numbers(pieces, |piece| &piece.triangles);
+        let vertices = new_numbers(pieces, |piece| &piece.vertices);
+        self.follow(|thing, of, number| {
+            let places = match thing {
+                Thing::Triangle => &triangles,
+                Thing::Vertex => &vertices,
+                Thing::Edge => return Some((of, number)),
+            };
+            let place = places.get(&number).filter(|_| of == body);
+            Some(place.copied().unwrap_or((of, number)))
+        });
+    }
+
+    /// Notes that [`World::fuse`](crate::World::fuse) put body `gone` into `kept`. Numbers of edges
+    /// are not in a [`Fused`]: hits with edges of `gone` end.
+    pub fn fused(&mut self, kept: BodyId, gone: BodyId, fused: &Fused) {
+        self.follow(|thing, of, number| {
+            if of != gone {
+                return Some((of, number));
+            }
+            let new = match thing {
+                Thing::Triangle => &fused.triangles,
+                Thing::Vertex => &fused.vertices,
+                Thing::Edge => return None,
+            };
+            let new = *new.get(number as usize)?;
+            (new != u32::MAX).then_some((kept, new))
+        });
+    }
+
+    /// Renames things between two lists: the numbers of a thing from now on, or none if it is
+    /// gone. Hits with things that are gone end at the next list.
+    ///
+    /// ```
+    /// # use pliant::{Changes, EdgeEdge, Thing};
+    /// # let (mut changes, body) = (Changes::<EdgeEdge>::new(), pliant::BodyId(0));
+    /// # let (before, after) = (vec![[0_u32, 1]], vec![[0_u32, 2]]);
+    /// // Edges before and after an edit of a body, as `World::edges` gives them.
+    /// changes.follow(|_, of, edge| {
+    ///     let place = edge as usize;
+    ///     let is_same = of != body || before.get(place) == after.get(place);
+    ///     is_same.then_some((of, edge))
+    /// });
+    /// ```
+    ///
+    /// Cost: two calls for each hit of the last list.
+    pub fn follow(&mut self, mut new: impl FnMut(Thing, BodyId, u32) -> Option<(BodyId, u32)>) {
+        let Memory { before, gone, .. } = &mut self.memory;
+        before.retain_mut(|(things, number)| {
+            let [a, b] = *things;
+            let [kind_a, kind_b] = H::THINGS;
+            let both = new(kind_a, a.0, a.1).zip(new(kind_b, b.0, b.1));
+            match both {
+                Some((a, b)) => *things = key::<H>([a, b]),
+                None => gone.push(Ended {
+                    number: *number,
+                    things: *things,
+                }),
+            }
+            both.is_some()
+        });
+    }
+}
+
+impl Memory {
+    /// Compares the new list, as `places` has it, with the last one, and remembers it.
+    fn compare(&mut self) -> Changed<'_> {
+        let Self {
+            before,
+            next,
+            gone,
+            places,
+            now,
+            numbers,
+            began,
+            ended,
+        } = self;
+        sort(places);
+        sort(before);
+        numbers.clear();
+        numbers.resize(places.len(), 0);
+        now.clear();
+        began.clear();
+        ended.clear();
+        ended.append(gone);
+        let end = |&(things, number): &(Key, u64)| Ended { number, things };
+        let mut old = before.iter().peekable();
+        for &(things, place) in &*places {
+            while let Some(gone) = old.next_if(|(known, _)| *known < things) {
+                ended.push(end(gone));
+            }
+            let number = if let Some(&(last, number)) = now.last()
+                && last == things
+            {
+                number
+            } else if let Some(&(_, number)) = old.next_if(|(known, _)| *known == things) {
+                now.push((things, number));
+                number
+            } else {
+                began.push(place);
+                now.push((things, *next));
+                *next += 1;
+                *next - 1
+            };
+            numbers[place] = number;
+        }
+        ended.extend(old.map(end));
+        began.sort_unstable();
+        ended.sort_unstable();
+        std::mem::swap(before, now);
+        Changed {
+            numbers,
+            began,
+            ended,
+        }
+    }
+}
+
+/// New body and number of each thing of some pieces, by its old number.
+fn new_numbers(pieces: &[Piece], old: impl Fn(&Piece) -> &[u32]) -> BTreeMap<u32, (BodyId, u32)> {
+    let mut all = BTreeMap::new();
+    for piece in pieces {
+        let places = old(piece).iter().copied().zip(0..);
+        all.extend(places.map(|(number, place)| (number, (piece.body, place))));
+    }
+    all
+}
+
+/// Sorts a list that mostly is in order.
+fn sort<T: Ord>(list: &mut [T]) {
+    if !list.is_sorted() {
+        list.sort_unstable();
+    }
+}

@@ -72,6 +72,7 @@
 //! - **Meshes that change**: [`World::edit`], [`Edit`], [`apply`](World::apply), [`Edited`],
 //!   [`set_mesh`](World::set_mesh). Pieces: [`components`](World::components),
 //!   [`split`](World::split), [`fuse`](World::fuse), [`weld`](World::weld).
+//! - **What is new since the last step**: [`Changes`], [`Changed`]; a hit's two things: [`Listed`].
 //! - **Trees that no longer fit the shape**: [`World::rebuild`],
 //!   [`tree_quality`](World::tree_quality), [`Options::mending`].
 //! - **Who may meet whom**: [`World::set_filter`], [`ignore`](World::ignore),
@@ -84,7 +85,7 @@
 //! - **How trees are built and updated**: [`Options`], [`Degree`], [`Partition`], [`Update`]. How
 //!   they look: [`World::tree_shape`], [`tree_cut`](World::tree_cut),
 //!   [`vertex_order`](World::vertex_order).
-//! - **Threads**: [`Options::threads`], or a pool of your own with [`World::with_pool`].
+//! - **Threads**: [`Options::threads`], [`Options::all_threads`], or a pool of your own with [`World::with_pool`].
 //! - **Single or double precision**: [`Scalar`].
 //! - **Exact decisions on single points and triangles**: [`exact`].
 //! - **Answers without any tree, to compare with**: [`reference`](mod@reference).

@@ -78,19 +78,14 @@ fn key<H: Listed>(mut things: Key) -> Key {
 /// the sorted one of [`Query::all`](crate::Query::all) is quickest.
 ///
 /// ```
-/// use pliant::{Changes, Selection, World};
-///
-/// let mut world = World::<f32>::new();
-/// let at = |z: f32| [[0.0, 0.0, z], [4.0, 0.0, z], [0.0, 4.0, z + 1.0]];
-/// world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.5], [4.0, 0.0, 0.5], [0.0, 4.0, 0.5]])?;
-/// let leaf = world.add(&[[0, 1, 2]], &at(9.0))?;
+/// # use pliant::{BodyId, Changes, Pair};
+/// # let pair = |triangle_a| Pair { body_a: BodyId(0), triangle_a, body_b: BodyId(1), triangle_b: 0 };
 /// let mut changes = Changes::new();
-/// for (z, began, ended) in [(9.0, 0, 0), (0.1, 1, 0), (0.2, 0, 0), (9.0, 0, 1)] {
-///     world.set_positions(leaf, &at(z))?;
-///     let changed = changes.update(world.intersections(Selection::World).all()?);
-///     assert_eq!([changed.began.len(), changed.ended.len()], [began, ended]);
-/// }
-/// # Ok::<(), pliant::Error>(())
+/// changes.update(&[pair(3), pair(5)]);
+/// let changed = changes.update(&[pair(4), pair(5)]);
+/// assert_eq!(changed.numbers, [2, 1]); // the second persists
+/// assert_eq!(changed.began, [0]);
+/// assert_eq!(changed.ended[0].number, 0);
 /// ```
 ///
 /// Things keep their numbers when a mesh is edited, except where a number is used again. Tell it

@@ -57,7 +57,7 @@ macro_rules! with_changes {
     };
 }
 
-/// Memory of the last list of hits, to which the next is compared: what began, persists, ended.
+/// Memory of the last list of hits: what began, persists and ended is told of the next.
 ///
 ///     changes = pliant.Changes()
 ///     for positions in frames:
@@ -124,7 +124,7 @@ impl Changes {
         Ok(class!(py, "Changed").call1(changed)?)
     }
 
-    /// Notes an edit of a body between two lists: takes the Edited that World.apply or weld gave.
+    /// Notes an edit between two lists: takes the Edited that World.apply or weld gave.
     ///
     /// Numbers that were removed or used again are other things: hits with them end. Edges are not
     /// in an Edited: see edges_edited.
@@ -173,7 +173,7 @@ impl Changes {
         })
     }
 
-    /// Notes new edges of a body between two lists: takes World.edges before and after an edit.
+    /// Notes an edit between two lists: takes World.edges of the body before and after it.
     ///
     /// Hits with an edge whose number now is another edge's, or nobody's, end.
     fn edges_edited(

@@ -52,9 +52,9 @@ def test_changes_sum_to_the_lists() -> None:
 
 def test_numbers_are_carried_through_edits() -> None:
     world = pliant.World()
-    floor = world.add([[0, 1, 2]], [[-9.0, -9, 0], [9, -9, 0], [0, 9, 0]])
-    up = [[0.0, 0, -1], [1, 0, 1], [0, 1, 1]]
-    body = world.add([[0, 1, 2], [3, 4, 5]], np.array(up + [[x + 2, y, z] for x, y, z in up]))
+    floor = world.add([[0, 1, 2]], [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])
+    up = np.array([[0.0, 0, -1], [1, 0, 1], [0, 1, 1]])
+    body = world.add([[0, 1, 2], [3, 4, 5]], np.concatenate([up, up + [2.0, 0.0, 0.0]]))
     changes = pliant.Changes()
     assert changes.update(world.intersections().all()).numbers.tolist() == [0, 1]
 
@@ -72,8 +72,7 @@ def test_numbers_are_carried_through_edits() -> None:
     edit.remove_triangles([0])
     edited = world.apply(edit)
     edit = world.edit(body)
-    again = [edit.add_vertex(corner) for corner in up]
-    edit.set_triangle(0, again)
+    edit.set_triangle(0, edit.add_vertices(up))
     changes.edited(body, edited)
     changes.edited(body, world.apply(edit))
     changed = changes.update(world.intersections().all())

@@ -88,6 +88,12 @@ def test_edits_have_the_steps_of_the_rust_librarys() -> None:
     assert of_class(pliant.Edit) == of_edit - {"add_vertex", "add_triangle", "remove_triangle", "vertex_count", "triangle_count"}
 
 
+def test_changes_have_the_methods_of_the_rust_librarys() -> None:
+    of_changes = public_methods(source_of("..", "changes.rs"))
+    # Renaming is a function there; here edges are arrays.
+    assert of_class(pliant.Changes) == of_changes - {"new", "follow"} | {"edges_edited"}
+
+
 def test_selections_have_the_names_of_the_rust_librarys() -> None:
     source = source_of("..", "selection.rs")
     variants = re.findall(r"^    (\w+)(\(.*\))?,$", source[source.index("pub enum Selection") :], re.MULTILINE)

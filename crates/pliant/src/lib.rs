@@ -85,7 +85,8 @@
 //! - **How trees are built and updated**: [`Options`], [`Degree`], [`Partition`], [`Update`]. How
 //!   they look: [`World::tree_shape`], [`tree_cut`](World::tree_cut),
 //!   [`vertex_order`](World::vertex_order).
-//! - **Threads**: [`Options::threads`], [`Options::all_threads`], or a pool of your own with [`World::with_pool`].
+//! - **Threads**: [`Options::threads`], [`Options::all_threads`], or a pool of your own with
+//!   [`World::with_pool`].
 //! - **Single or double precision**: [`Scalar`].
 //! - **Exact decisions on single points and triangles**: [`exact`].
 //! - **Answers without any tree, to compare with**: [`reference`](mod@reference).
@@ -109,6 +110,7 @@
 mod all_pairs;
 mod bodies;
 mod broad_phase;
+mod changes;
 mod collide;
 mod edit;
 mod error;
@@ -129,6 +131,7 @@ mod update;
 mod world;
 
 pub use bodies::{NodeBox, TreeShape};
+pub use changes::{Changed, Changes, Ended, Listed, Thing};
 pub use edit::{Edit, Edited};
 pub use error::{Error, ErrorKind};
 pub use ids::BodyId;
@@ -143,8 +146,8 @@ pub use threads::{Clock, RecordedPart};
 #[doc(hidden)]
 pub use world::pair_impacts;
 pub use world::{
-    Changed, Changes, Ended, FreeStep, Fused, InContact, Interruptible, Listed, Piece, Query,
-    Scalar, Thing, World, edge_edge_impacts, vertex_triangle_impacts,
+    FreeStep, Fused, InContact, Interruptible, Piece, Query, Scalar, World, edge_edge_impacts,
+    vertex_triangle_impacts,
 };
 
 /// Brute-force references of every kind of question: slow, and obviously right.

@@ -253,13 +253,13 @@ class World:
 
 @final
 class Changes:
-    """Memory of the last list of hits, to which the next is compared: what began, persists, ended."""
+    """Memory of the last list of hits: what began, persists and ended is told of the next."""
 
     def __new__(cls, kind: Literal["triangles", "vertex-triangle", "edge-edge"] = "triangles") -> Changes: ...
     def update(self, rows: NDArray[np.uint32]) -> Changed:
         """Compares a list with the last one, and remembers it; returns a Changed."""
     def edited(self, body: SupportsIndex, edited: Edited) -> None:
-        """Notes an edit of a body between two lists: takes the Edited that World.apply or weld gave."""
+        """Notes an edit between two lists: takes the Edited that World.apply or weld gave."""
     def split(self, body: SupportsIndex, pieces: Iterable[Piece]) -> None:
         """Notes that World.split made pieces of a body: takes the list of Piece that it gave."""
     def fused(self, kept: SupportsIndex, gone: SupportsIndex, fused: Fused) -> None:
@@ -267,8 +267,9 @@ class Changes:
     def edges_edited(
         self, body: SupportsIndex, before: NDArray[np.uint32], after: NDArray[np.uint32]
     ) -> None:
-        """Notes new edges of a body between two lists: takes World.edges before and after an edit."""
+        """Notes an edit between two lists: takes World.edges of the body before and after it."""
 
+@final
 class CloseQuery:
     """A question which elements are close, answered by all() or first()."""
 

@@ -35,14 +35,12 @@ mod looking;
 
 mod writing;
 
-mod changes;
 mod kept;
 mod query;
 mod scalar;
 mod state;
 mod verbs;
 
-pub use changes::{Changed, Changes, Ended, Listed, Thing};
 pub use free_step::{FreeStep, InContact};
 pub use handle::World;
 pub use interruptible::Interruptible;

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A folder, or a file of the crate's root, and the folders that it may use.
-const LAYERS: [(&str, &[&str]); 22] = [
+const LAYERS: [(&str, &[&str]); 23] = [
     ("held", &[]),
     ("ids", &[]),
     ("options", &[]),
@@ -135,6 +135,7 @@ const LAYERS: [(&str, &[&str]); 22] = [
             "all_pairs",
         ],
     ),
+    ("changes", &["ids", "edit", "queries", "world"]),
     ("lib", &[]),
 ];
 

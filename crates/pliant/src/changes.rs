@@ -4,13 +4,13 @@
 //! and its things are the same, whatever numbers an edit gives these. The caller holds the state,
 //! so a world has no hidden history.
 
-use super::pieces::{Fused, Piece};
 use crate::edit::Edited;
 use crate::ids::BodyId;
 use crate::queries::{
     CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, Contact, EdgeEdge, EdgeEdgeImpact, Pair,
     VertexTriangle, VertexTriangleImpact,
 };
+use crate::world::{Fused, Piece};
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
 
@@ -79,7 +79,8 @@ fn key<H: Listed>(mut things: Key) -> Key {
 ///
 /// ```
 /// # use pliant::{BodyId, Changes, Pair};
-/// # let pair = |triangle_a| Pair { body_a: BodyId(0), triangle_a, body_b: BodyId(1), triangle_b: 0 };
+/// # let (body_a, body_b) = (BodyId(0), BodyId(1));
+/// # let pair = |triangle_a| Pair { body_a, triangle_a, body_b, triangle_b: 0 };
 /// let mut changes = Changes::new();
 /// changes.update(&[pair(3), pair(5)]);
 /// let changed = changes.update(&[pair(4), pair(5)]);

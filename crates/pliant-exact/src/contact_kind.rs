@@ -118,7 +118,11 @@ fn goes_through(
 }
 
 /// Whether triangles in one plane have an area in common.
-fn overlap_in_plane(a: &Triangle, b: &Triangle, orientation: &mut impl Orientation) -> bool {
+pub(super) fn overlap_in_plane(
+    a: &Triangle,
+    b: &Triangle,
+    orientation: &mut impl Orientation,
+) -> bool {
     for plane in PLANES {
         let [a, b] = [a, b].map(|triangle| projected(triangle, plane));
         let mut way = |[p, q, r]: [Point2; 3]| orientation.sign_in_plane(p, q, r);

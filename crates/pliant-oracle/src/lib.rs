@@ -18,6 +18,7 @@
 //! assert_eq!(intersect(&a, &b), intersect(&b, &a));
 //! ```
 
+mod adjacent;
 mod distance;
 mod environment;
 mod hull;
@@ -25,6 +26,7 @@ mod integers;
 mod motion;
 mod pairs;
 
+pub use adjacent::adjacent_contact;
 pub use distance::{compare_distance, compare_dot, compare_length};
 pub use environment::subnormals_flushed;
 pub use motion::{

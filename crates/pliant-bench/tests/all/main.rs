@@ -2,6 +2,7 @@
 //!
 //! One file: `cargo test -p pliant-bench --test all experiments::`.
 
+mod cores;
 mod experiments;
 mod older;
 mod peers;

@@ -5,10 +5,8 @@ use crate::outcome::Outcome;
 use crate::output::{self, Overwrite};
 use crate::table::table;
 use crate::terminal::{print_all, progress};
-use pliant_bench::cores::{COUNT, HeldBack, MANY, Measured, WORKERS, measure, wait_ms};
+use pliant_bench::cores::{COUNT, HeldBack, MANY, Measured, Record, WORKERS, measure, wait_ms};
 use pliant_bench::machine::this_machine;
-use pliant_bench::record::Machine;
-use serde::Serialize;
 use std::path::Path;
 
 /// Name and description, as of an experiment.
@@ -17,16 +15,6 @@ pub(super) const ABOUT: &str = "more threads: measured, and predicted by a repla
 
 /// Beginning of every record, by which the program recognises its own files.
 const RECORD: &str = r#"{"format":1,"cores_of":{"processor":"#;
-
-#[derive(Serialize)]
-struct Record<'a> {
-    format: u32,
-    cores_of: &'a Machine,
-    /// Milliseconds that a part costs which two threads share.
-    wait_ms: f64,
-    workers: [usize; WORKERS.len()],
-    measured: &'a [Measured],
-}
 
 /// Options of the command that concern it.
 pub(super) struct Asked<'a> {
@@ -67,13 +55,7 @@ pub(super) fn cores(asked: &Asked) -> anyhow::Result<Outcome> {
         ))?;
     }
     if let Some(file) = asked.file {
-        let record = Record {
-            format: 1,
-            cores_of: &machine,
-            wait_ms,
-            workers: WORKERS,
-            measured: &all,
-        };
+        let record = Record::of(&machine, wait_ms, &all);
         let text = serde_json::to_string(&record)?;
         output::write(file, RECORD, asked.over, |out| writeln!(out, "{text}"))?;
     }

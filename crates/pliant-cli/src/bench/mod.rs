@@ -33,7 +33,8 @@ pub(crate) struct Arguments {
     /// A small form that takes seconds, to see what there is; its times mean nothing
     #[arg(long)]
     small: bool,
-    /// Write everything that was measured to a file, as benchmarks/record.schema.json describes it
+    /// Write everything that was measured to a file, as benchmarks/record.schema.json describes it;
+    /// of cores, cores.schema.json
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Write a page about it: one file that needs no network, with charts of every contest, and its

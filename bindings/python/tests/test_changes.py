@@ -41,7 +41,7 @@ def test_changes_sum_to_the_lists() -> None:
             assert [listed[place] for place in changed.began] == [row for row in listed if row not in known]
             gone = {row: number for row, number in known.items() if row not in listed}
             assert dict(zip(rows_of(changed.ended), changed.ended_numbers.tolist())) == gone
-            assert list(changed.ended_numbers) == sorted(gone.values())
+            assert rows_of(changed.ended) == sorted(gone)
             for row, number in zip(listed, changed.numbers.tolist()):
                 assert known.get(row, number) == number
             numbers[which] = dict(zip(listed, changed.numbers.tolist()))

@@ -60,15 +60,20 @@ listed! {
     EdgeEdgeImpact: [Edge, Edge] .pair;
 }
 
-/// Two things of one hit. Of one kind, the lower comes first.
-type Key = [(BodyId, u32); 2];
+/// Two things of one hit as one number, in the order of lists. Of one kind, the lower comes first.
+type Key = u128;
 
-fn key<H: Listed>(mut things: Key) -> Key {
-    let [a, b] = H::THINGS;
-    if a == b {
-        things.sort_unstable();
+fn key<H: Listed>(things: [(BodyId, u32); 2]) -> Key {
+    let [mut a, mut b] = things.map(|(body, number)| u64::from(body.0) << 32 | u64::from(number));
+    if H::THINGS[0] == H::THINGS[1] && a > b {
+        std::mem::swap(&mut a, &mut b);
     }
-    things
+    Key::from(a) << 64 | Key::from(b)
+}
+
+fn things(key: Key) -> [(BodyId, u32); 2] {
+    let thing = |bits: u64| (BodyId((bits >> 32) as u32), bits as u32);
+    [thing((key >> 64) as u64), thing(key as u64)]
 }
 
 /// Memory of the last list of hits, to which the next is compared.
@@ -124,7 +129,7 @@ pub struct Changed<'c> {
     pub numbers: &'c [u64],
     /// Places in the new list of the hits that began, ascending.
     pub began: &'c [usize],
-    /// Hits that ended, by ascending numbers.
+    /// Hits that ended, in the order of lists.
     pub ended: &'c [Ended],
 }
 
@@ -232,15 +237,15 @@ impl<H: Listed> Changes<H> {
     /// Cost: two calls for each hit of the last list.
     pub fn follow(&mut self, mut new: impl FnMut(Thing, BodyId, u32) -> Option<(BodyId, u32)>) {
         let Memory { before, gone, .. } = &mut self.memory;
-        before.retain_mut(|(things, number)| {
-            let [a, b] = *things;
+        before.retain_mut(|(known, number)| {
+            let [a, b] = things(*known);
             let [kind_a, kind_b] = H::THINGS;
             let both = new(kind_a, a.0, a.1).zip(new(kind_b, b.0, b.1));
             match both {
-                Some((a, b)) => *things = key::<H>([a, b]),
+                Some((a, b)) => *known = key::<H>([a, b]),
                 None => gone.push(Ended {
                     number: *number,
-                    things: *things,
+                    things: things(*known),
                 }),
             }
             both.is_some()
@@ -268,31 +273,36 @@ impl Memory {
         now.clear();
         began.clear();
         ended.clear();
-        ended.append(gone);
-        let end = |&(things, number): &(Key, u64)| Ended { number, things };
+        let end = |&(known, number): &(Key, u64)| Ended {
+            number,
+            things: things(known),
+        };
         let mut old = before.iter().peekable();
-        for &(things, place) in &*places {
-            while let Some(gone) = old.next_if(|(known, _)| *known < things) {
+        for &(hit, place) in &*places {
+            while let Some(gone) = old.next_if(|(known, _)| *known < hit) {
                 ended.push(end(gone));
             }
             let number = if let Some(&(last, number)) = now.last()
-                && last == things
+                && last == hit
             {
                 number
-            } else if let Some(&(_, number)) = old.next_if(|(known, _)| *known == things) {
-                now.push((things, number));
+            } else if let Some(&(_, number)) = old.next_if(|(known, _)| *known == hit) {
+                now.push((hit, number));
                 number
             } else {
                 began.push(place);
-                now.push((things, *next));
+                now.push((hit, *next));
                 *next += 1;
                 *next - 1
             };
             numbers[place] = number;
         }
         ended.extend(old.map(end));
-        began.sort_unstable();
-        ended.sort_unstable();
+        if !gone.is_empty() {
+            ended.append(gone);
+            ended.sort_unstable_by_key(|ended| (ended.things, ended.number));
+        }
+        sort(began);
         std::mem::swap(before, now);
         Changed {
             numbers,

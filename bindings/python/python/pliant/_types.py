@@ -203,9 +203,9 @@ class Changed(NamedTuple):
     began: NDArray[np.uint64]
     """(b,): places in the new list of the rows that began, ascending."""
     ended: NDArray[np.uint32]
-    """(e, 4): rows that ended, by the numbers that their things had last. Of one kind, the lower is first."""
+    """(e, 4): rows that ended, sorted, by the numbers that their things had last. Of one kind, the lower is first."""
     ended_numbers: NDArray[np.uint64]
-    """(e,): the number of each, ascending."""
+    """(e,): the number of each."""
 
 
 class Edited(NamedTuple):

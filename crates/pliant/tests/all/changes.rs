@@ -57,7 +57,9 @@ impl Model {
             .iter()
             .filter(|(names, _)| !now.contains_key(*names));
         let gone: BTreeSet<u64> = gone.map(|(_, &number)| number).collect();
-        assert!(gone.into_iter().eq(ended.iter().map(|ended| ended.number)));
+        assert!(ended.is_sorted_by_key(|ended| ended.things));
+        let ended: BTreeSet<u64> = ended.iter().map(|ended| ended.number).collect();
+        assert_eq!(gone, ended);
         self.now = now;
     }
 }

@@ -71,11 +71,10 @@ pub(super) fn adjacent_contact(
 /// not on that edge. A triangle without area is one or two segments from p, to its corners that are
 /// elsewhere. Each is a triangle p q q, with the edge q q, and the same holds.
 ///
-/// They cross if q and r are strictly on the two sides of the plane of the other, so are s and t,
-/// and the two cones hold the same ray of the line of both planes. Edge q r goes through its plane
-/// where side(s) has the sign that side(r) has. All this is open, so small moves do not change it.
-/// If one sign is zero, a small move takes a corner to the side of its edge's other end, and the
-/// triangles apart.
+/// They cross if three things hold. Both q and r are off the plane of the other, on its two sides;
+/// so are s and t. The two cones hold the same ray of the line of both planes: then side(s) has the
+/// sign of side(r). All this is open, so small moves do not change it. If one sign is zero, a small
+/// move takes a corner to the side of its edge's other end, and the triangles apart.
 fn beyond_corner(
     p: &Point,
     rests: [[Option<Point>; 3]; 2],
@@ -111,8 +110,8 @@ fn beyond_corner(
         .then_some(ContactKind::Touching)
 }
 
-/// Edges opposite p of the cones that a triangle consists of: one of a triangle with area, else a
-/// point for each corner that is not in the place of p.
+/// Edges opposite p of the cones that a triangle consists of. A triangle with area has one. Of
+/// another it is a point for each corner that is not in the place of p.
 fn cones(p: &Point, [q, r, _]: [Option<Point>; 3]) -> [Option<[Point; 2]>; 2] {
     if let (Some(q), Some(r)) = (q, r)
         && !super::is_degenerate([*p, q, r])
@@ -136,8 +135,7 @@ fn meet_beyond(
         || triangles_intersect(&[s, t, t], &[*p, q, r], orientation)
 }
 
-/// Triangles p q r and p q s meet beyond edge p q if they lie in one plane, r and s on one side of
-/// the edge: they overlap. If r and s lie on the line of the edge, both must be beyond the same
+/// Triangles p q r and p q s overlap if they lie in one plane, and on one side of edge p q. If r and s lie on the line of the edge, both must be beyond the same
 /// end of it: they touch. They never cross, as a small move takes them out of one plane.
 fn beyond_edge(
     [p, q]: [&Point; 2],

@@ -1,8 +1,8 @@
 //! Triangles with corners in common, on a lattice, by the points where they may meet.
 //!
-//! What two triangles have in common is the hull of some of these points: corners, points where two
-//! edges meet, and points where an edge goes through the other's plane. All are computed as
-//! fractions. The ones that both triangles hold span it.
+//! Two triangles have the hull of some points in common. These are corners, points where two edges
+//! meet, or points where an edge goes through the other's plane. All are computed as fractions. The
+//! ones that both triangles hold span it.
 
 /// A point as a fraction: three numerators, and one positive denominator.
 type Fraction = ([i128; 3], i128);

@@ -135,8 +135,10 @@ fn meet_beyond(
         || triangles_intersect(&[s, t, t], &[*p, q, r], orientation)
 }
 
-/// Triangles p q r and p q s overlap if they lie in one plane, and on one side of edge p q. If r and s lie on the line of the edge, both must be beyond the same
-/// end of it: they touch. They never cross, as a small move takes them out of one plane.
+/// Triangles p q r and p q s overlap if they lie in one plane, and on one side of edge p q.
+///
+/// If r and s lie on the line of the edge, both must be beyond the same end of it: they touch. They
+/// never cross, as a small move takes them out of one plane.
 fn beyond_edge(
     [p, q]: [&Point; 2],
     [r, s]: [&Point; 2],

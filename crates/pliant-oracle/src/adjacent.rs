@@ -87,8 +87,8 @@ fn candidates(a: Corners, b: Corners) -> Vec<Fraction> {
 /// How two triangles meet beyond the hull of their corners of equal numbers: 0 touching, 1
 /// overlapping, 2 crossing; none if they do not. Coordinates are small: below 2^10.
 ///
-/// They cross if they meet so that no plane has both on its two closed sides, but for the corner in
-/// common. With two corners in common they never do.
+/// They cross if they still meet so after every small move. With two corners in common they never
+/// do.
 pub fn adjacent_contact(numbers: [[u32; 3]; 2], corners: [[[i64; 3]; 3]; 2]) -> Option<u8> {
     let [a, b] = corners.map(|triangle| triangle.map(|corner| corner.map(i128::from)));
     let mut common: Vec<u32> = numbers[0].to_vec();

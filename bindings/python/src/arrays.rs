@@ -366,7 +366,7 @@ fn as_numpy<'py>(given: &Any<'py>, what: &str) -> Result<Bound<'py, PyUntypedArr
 /// Refuses a masked array that hides any number, and a list of such arrays.
 ///
 /// A hidden number is in memory all the same, and would be read.
-fn refuse_masks(given: &Any<'_>, what: &str) -> Result<()> {
+pub(crate) fn refuse_masks(given: &Any<'_>, what: &str) -> Result<()> {
     let py = given.py();
     let is_masked = |item: &Any<'_>| -> PyResult<bool> {
         // Masked arrays are arrays of another class than numpy's own.

@@ -1,10 +1,10 @@
 //! `Changes` of Python: rows of a list that began, persist and ended since the last list.
 
 use crate::answers::{Any, Column, Rows, class};
-use crate::arrays::numbers;
+use crate::arrays::{numbers, refuse_masks};
 use crate::error::{Refused, Result, alone_with, refused};
 use crate::selection::Body;
-use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{PyArray2, PyReadonlyArray2, PyUntypedArrayMethods};
 use pliant::{BodyId, Changed, Edited, Fused, Listed, Piece, Thing};
 use pyo3::prelude::*;
 use std::sync::Mutex;
@@ -175,7 +175,7 @@ impl Changes {
 
     /// Notes an edit between two lists: takes World.edges of the body before and after it.
     ///
-    /// Hits with an edge whose number now is another edge's, or nobody's, end.
+    /// An edge is the same if its number has the same two ends. Hits with others end.
     fn edges_edited(
         &self,
         py: Python<'_>,
@@ -184,6 +184,7 @@ impl Changes {
         after: &Any<'_>,
     ) -> Result<()> {
         let ends = |given: &Any<'_>, name: &str| -> Result<Vec<[u32; 2]>> {
+            refuse_masks(given, name)?;
             let wanted = || bad_rows(name, given, "(k, 2)", "World.edges gives");
             rows_of::<2>(given).ok_or_else(wanted)
         };
@@ -228,21 +229,21 @@ fn listed<R: From<[u32; 4]>>(rows: Vec<[u32; 4]>) -> Vec<R> {
 }
 
 fn copied(given: &Any<'_>) -> Result<Vec<[u32; 4]>> {
+    refuse_masks(given, "rows")?;
     rows_of::<4>(given).ok_or_else(|| bad_rows("rows", given, "(k, 4)", "queries give"))
 }
 
 /// Copies rows of an array of uint32; none if it is another.
 fn rows_of<const K: usize>(given: &Any<'_>) -> Option<Vec<[u32; K]>> {
-    let array: PyReadonlyArray2<'_, u32> = given.extract().ok()?;
-    if array.shape()[1] != K {
+    // Numpy copies, whatever strides and alignment are; then nobody else writes to it.
+    let array = given.cast::<PyArray2<u32>>().ok()?;
+    let copy = array.call_method1("copy", ("C",)).ok()?;
+    let copy: PyReadonlyArray2<'_, u32> = copy.extract().ok()?;
+    if copy.shape()[1] != K {
         return None;
     }
-    let array = array.as_array();
-    let rows = array.rows().into_iter();
-    Some(
-        rows.map(|row| std::array::from_fn(|column| row[column]))
-            .collect(),
-    )
+    let (rows, _) = copy.as_slice().ok()?.as_chunks::<K>();
+    Some(rows.to_vec())
 }
 
 fn bad_rows(name: &str, given: &Any<'_>, shape: &str, whose: &str) -> Refused {

@@ -85,7 +85,7 @@ fn candidates(a: Corners, b: Corners) -> Vec<Fraction> {
 }
 
 /// How two triangles meet beyond the hull of their corners of equal numbers: 0 touching, 1
-/// overlapping, 2 crossing; none if they do not. Coordinates are small: below 2^10.
+/// overlapping, 2 crossing; none if they do not. Coordinates are below 2^5 in magnitude.
 ///
 /// They cross if they still meet so after every small move. With two corners in common they never
 /// do.

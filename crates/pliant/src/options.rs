@@ -172,8 +172,8 @@ impl Default for Options {
 }
 
 impl Options {
-    /// The defaults, with as many threads as the machine has cores for this process. If the system
-    /// does not say how many, it is one.
+    /// The defaults, with a thread for each processor that this process may use, as the system
+    /// counts them. If it does not say how many, it is one.
     ///
     /// No number of threads changes an answer. One thread, the default, is best where a simulator
     /// uses the other cores itself.

@@ -62,7 +62,9 @@ impl Pass {
         let threads = executor.threads_for(nanoseconds);
         let (mut jobs, mut size, mut most_of_job) = (1, left, most);
         if threads > 1 {
-            jobs = JOBS_A_THREAD * threads;
+            // Rows alone may be more than is wanted.
+            let rows = 1 + most / (1 + self.pairs_a_row);
+            jobs = (JOBS_A_THREAD * threads).min(rows);
             most_of_job = 2 * most.div_ceil(jobs);
             // Half of that is expected, so that few rows are found in vain.
             let room = most_of_job / (2 + 2 * self.pairs_a_row);

@@ -125,6 +125,10 @@ impl BodyPairs {
         if and_world && self.holds_for != Some(self.boxes) {
             self.holds_for = None;
             self.take_boxes(bodies, boxes, origin, executor);
+            if executor.is_interrupted() {
+                // Some boxes may be missing, and the broad phase would keep what it made of them.
+                return Ok(());
+            }
             self.broad_phase.begin(&self.broad, executor.interrupt);
         }
         Ok(())

@@ -136,9 +136,9 @@ impl<S: Coordinate> AskedImpacts<S> {
         let mut step = 0.0;
         for part in PARTS {
             step = latest * part;
-            let is_free = self.is_free_to(common, step, distance, request)?;
-            statistics += common.statistics;
-            if is_free {
+            if self.is_free_to(common, step, distance, request)? {
+                // Work in vain is not counted: how much it was depends on the threads.
+                statistics += common.statistics;
                 break;
             }
         }
@@ -223,8 +223,7 @@ where
         time: f64,
         distance: f64,
     ) -> Result<bool, Error> {
-        let any = Earliest::new(distance == 0.0, 1.0);
-        let kind = impacts(Reach::To(time), distance).earlier_than(any);
+        let kind = impacts(Reach::To(time), distance).any();
         self.search(&kind, common, request)?;
         Ok(kind.into_earliest().known() > 1.0)
     }

@@ -353,6 +353,7 @@ impl Together {
         if executor.is_interrupted() {
             return ControlFlow::Break(());
         }
+        items.nodes.append(&mut exchange.rest());
         for number in 0..used {
             let share = &mut tasks.one(number).share;
             items.nodes.append(&mut share.waiting);

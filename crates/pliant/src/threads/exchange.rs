@@ -72,6 +72,14 @@ impl<'q, T> Exchange<'q, T> {
         locked(&self.given).extend(work);
     }
 
+    /// Work that was given and that nobody took, after all workers have ended.
+    ///
+    /// Who waited may have just given up when it was given, and the giver may have stopped before
+    /// it looked for more.
+    pub(crate) fn rest(&self) -> Vec<T> {
+        std::mem::take(&mut *locked(&self.given))
+    }
+
     /// Takes some of the given work for a worker that has none left. Waits for it while others are
     /// busy, but not long. It waits less for those that have not begun: a lent pool may have other
     /// work. Returns whether there is any; if not, the worker has to end.

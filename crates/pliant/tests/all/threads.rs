@@ -1,7 +1,7 @@
 //! The number of threads changes only time: not the pairs, their order or the counters.
 
 use crate::common::TrianglesOf;
-use pliant::{Degree, Options, Pair, Partition, Selection, Statistics, Update, World};
+use pliant::{BroadPhase, Degree, Options, Pair, Partition, Selection, Statistics, Update, World};
 use pliant_scenes::Scene;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::ops::ControlFlow;
@@ -258,5 +258,40 @@ fn many_shapes_at_once_are_as_one_after_the_other() {
             assert_eq!(again.unwrap(), found);
         }
         assert!(!found.is_empty());
+    }
+}
+
+/// Boxes of bodies are then missing: a broad phase that kept what it made of them would find a body
+/// with itself.
+#[test]
+fn an_interrupt_while_boxes_are_taken_leaves_no_trace() {
+    let scene = Scene::gather(60, 20, Scene::DEFAULT_SEED);
+    let scene = scene.unwrap();
+    let crossing = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+    let through = [[1.0, 1.0, -1.0], [1.0, 1.0, 1.0], [2.0, 1.0, 1.0]];
+    let corners = [crossing, through].concat();
+    for broad_phase in [BroadPhase::SweepAndPrune, BroadPhase::Tree] {
+        for threads in [1, 2, 3] {
+            let mut options = Options::default();
+            options.threads = NonZeroUsize::new(threads).unwrap();
+            options.broad_phase = broad_phase;
+            let mut world = World::<f32>::with_options(options);
+            let mut shape = Vec::new();
+            for body in 0..scene.body_count() {
+                scene.positions(body, 190, &mut shape);
+                world.add(scene.triangles(body), &shape).unwrap();
+            }
+            world.intersections(Selection::World).all().unwrap();
+            let last = world.add(&[[0, 1, 2], [3, 4, 5]], &corners).unwrap();
+            let query = world.intersections(Selection::World);
+            assert!(query.interrupt_if(&|| true).all().is_err());
+            for of in [Selection::World, Selection::Everything] {
+                let found = world.intersections(of).all().unwrap();
+                let of_itself = |pair: &&Pair| pair.body_a == last && pair.body_b == last;
+                let expected = usize::from(of == Selection::Everything);
+                assert_eq!(found.iter().filter(of_itself).count(), expected);
+                assert!(found.windows(2).all(|two| two[0] < two[1]));
+            }
+        }
     }
 }

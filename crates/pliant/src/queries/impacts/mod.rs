@@ -33,6 +33,8 @@ pub(crate) struct Impacts<K> {
     distance: f64,
     /// Whether only the earliest is searched. It is kept in `earliest`, and no hits are found.
     is_first: bool,
+    /// Whether any contact will do as well as the earliest.
+    is_any: bool,
     earliest: Earliest,
 }
 
@@ -77,6 +79,7 @@ impl<K> Impacts<K> {
             grid,
             reach,
             is_first: false,
+            is_any: false,
             earliest: Earliest::new(false, 1.0),
         }
     }
@@ -95,6 +98,15 @@ impl<K> Impacts<K> {
             is_first: true,
             earliest,
             ..self
+        }
+    }
+
+    /// Searches for any contact after the start of the motion, or at any time with a distance.
+    pub(crate) fn any(self) -> Self {
+        let earliest = Earliest::new(self.distance == 0.0, 1.0);
+        Self {
+            is_any: true,
+            ..self.earlier_than(earliest)
         }
     }
 
@@ -120,6 +132,9 @@ impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
     }
 
     fn test(&self, leaves: &LeafTest<K::Scalar>, batch: Batch, found: &mut FoundBy<Self>) {
+        if self.is_any && self.earliest.known() <= 1.0 {
+            return;
+        }
         let Found {
             hits,
             statistics,

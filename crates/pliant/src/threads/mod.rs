@@ -1,12 +1,9 @@
 //! Threads of a world: jobs for one thread or many. No other folder names a thread pool.
 //!
-//! Idea: work is cut into jobs by its size. Rounds of a traversal, rows of bodies and lists that
-//! are merged are cut by the number of threads. A part uses as many threads as its work pays for
-//! (`grain`), while the others sleep (`pool`).
-//!
-//! Invariant: every job writes its own data, or sums and sets that all fill in any order. Results
-//! are joined in the order of jobs, or sorted. So answers, their order and counters are the same
-//! for any number of threads.
+//! Idea: work is cut into jobs by its size; rounds, rows and merges by the number of threads. A
+//! part wakes as many as its work pays for (`grain`), the others sleep (`pool`). Invariant: a job
+//! writes its own data, or sums and sets that all fill in any order. So answers, their order and
+//! counters are the same for any number of threads.
 
 mod budget;
 mod exchange;

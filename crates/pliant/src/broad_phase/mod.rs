@@ -66,7 +66,7 @@ impl BroadPhase {
     /// The bodies are the last pass's without the ones removed by [`BroadPhase::remove`], and then
     /// added bodies at the end.
     pub(crate) fn begin(&mut self, boxes: &[Aabb], interrupt: &Interrupt) {
-        self.pass.begin();
+        self.pass.begin(boxes.len());
         self.way = match self.rule {
             crate::BroadPhase::Auto if boxes.len() > MOST_FOR_BRUTE_FORCE => Way::Tree,
             crate::BroadPhase::Auto | crate::BroadPhase::BruteForce => Way::BruteForce,

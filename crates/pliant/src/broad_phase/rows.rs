@@ -40,8 +40,12 @@ pub(super) struct Pass {
 }
 
 impl Pass {
-    pub(super) fn begin(&mut self) {
+    /// Begins a pass over some bodies. In the first all may overlap, for what is known.
+    pub(super) fn begin(&mut self, bodies: usize) {
         (self.next, self.tested) = (0, 0);
+        if self.jobs.is_empty() {
+            self.pairs_a_row = bodies;
+        }
     }
 
     /// Appends the pairs of the next rows, in order: of one row at least, about `most` at once.
@@ -62,9 +66,10 @@ impl Pass {
         let threads = executor.threads_for(nanoseconds);
         let (mut jobs, mut size, mut most_of_job) = (1, left, most);
         if threads > 1 {
-            // Rows alone may be more than is wanted.
+            // Each finds one row at least, which may be all that is wanted.
             let rows = 1 + most / (1 + self.pairs_a_row);
-            jobs = (JOBS_A_THREAD * threads).min(rows);
+            let longest = 1 + JOBS_A_THREAD * most / boxes.len();
+            jobs = (JOBS_A_THREAD * threads).min(rows).min(longest);
             most_of_job = 2 * most.div_ceil(jobs);
             // Half of that is expected, so that few rows are found in vain.
             let room = most_of_job / (2 + 2 * self.pairs_a_row);

@@ -80,7 +80,7 @@ fn beyond_corner(
     rests: [[Option<Point>; 3]; 2],
     orientation: &mut impl Orientation,
 ) -> Option<ContactKind> {
-    let [of_a, of_b] = rests.map(|rest| cones(p, rest));
+    let [of_a, of_b] = rests.map(|rest| cones(p, rest, orientation));
     if let ([Some([q, r]), None], [Some([s, t]), None]) = (of_a, of_b) {
         let (a, b) = ([*p, q, r], [*p, s, t]);
         let [_, side_q, side_r] = plane_signs(&b, &a, orientation);
@@ -112,9 +112,13 @@ fn beyond_corner(
 
 /// Edges opposite p of the cones that a triangle consists of. A triangle with area has one. Of
 /// another it is a point for each corner that is not in the place of p.
-fn cones(p: &Point, [q, r, _]: [Option<Point>; 3]) -> [Option<[Point; 2]>; 2] {
+fn cones(
+    p: &Point,
+    [q, r, _]: [Option<Point>; 3],
+    orientation: &mut impl Orientation,
+) -> [Option<[Point; 2]>; 2] {
     if let (Some(q), Some(r)) = (q, r)
-        && !super::is_degenerate([*p, q, r])
+        && has_area(&[*p, q, r], orientation)
     {
         return [Some([q, r]), None];
     }
@@ -122,6 +126,13 @@ fn cones(p: &Point, [q, r, _]: [Option<Point>; 3]) -> [Option<[Point; 2]>; 2] {
         corner
             .filter(|corner| corner != p)
             .map(|corner| [corner; 2])
+    })
+}
+
+fn has_area(triangle: &Triangle, orientation: &mut impl Orientation) -> bool {
+    PLANES.into_iter().any(|plane| {
+        let [a, b, c] = projected(triangle, plane);
+        orientation.sign_in_plane(a, b, c) != 0
     })
 }
 

@@ -118,10 +118,9 @@ fn checked_in_records_keep_to_the_schema() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../benchmarks/records");
     for file in std::fs::read_dir(folder).into_iter().flatten() {
         let path = file.unwrap().path();
-        if path
-            .extension()
-            .is_some_and(|extension| extension == "json")
-        {
+        let name = path.file_name().unwrap().to_string_lossy();
+        // Records of many threads have a schema of their own: `cores`.
+        if name.ends_with(".json") && !name.starts_with("cores-") {
             let json = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
             schemas
                 .validate(&json, schema)

@@ -69,7 +69,7 @@ use pyo3::types::{PyDict, PyTuple};
 /// - broad: how pairs of bodies are found. "brute" compares all boxes, "sweep" is sweep and prune,
 ///   "tree" a tree of bodies. "auto" is "brute" up to 100 bodies, then "tree"
 /// - threads: how many threads share the work of a query, at most, or "all" for one a core. Work
-///   that is small takes fewer, so that more threads do not make it slower
+///   that is small takes fewer. Where other programs use the cores, fewer may be quicker
 /// - mending: whether a tree that has decayed is built anew, a part of the work at each new shape:
 ///   see tree_quality
 ///

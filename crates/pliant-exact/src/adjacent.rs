@@ -5,11 +5,47 @@
 //! they meet beyond p if and only if the opposite edge of one meets the other. Signs alone decide
 //! it, as for triangles without a corner in common (`triangles`).
 
-use super::ContactKind;
-use super::contact_kind::overlap_in_plane;
-use super::orientation::Orientation;
+use super::contact_kind::{self, ContactKind, overlap_in_plane};
+use super::environment::Precision;
+use super::lattice::{Lattice, on_lattice};
+use super::orientation::{Filtered, Orientation};
 use super::point::{PLANES, Point, Sign, Triangle, projected};
 use super::triangles::{plane_signs, triangles_intersect};
+
+/// How two triangles of one mesh meet beyond the hull of the corners that they have in common, if
+/// they do. Corners of equal `numbers` are one vertex, and stand in one place.
+///
+/// - **No corner in common**: whether they [intersect](crate::intersect), and how.
+/// - **One**: the opposite edge of one meets the other triangle. They cross if they still do after
+///   every small enough move of the vertices. They overlap if they lie in one plane with an area in
+///   common. Else they touch.
+/// - **Two**: they lie in one plane, on one side of the edge in common, and overlap. Triangles
+///   without area touch, if they go on along the line of the edge beyond the same end.
+/// - **Three**: the triangle is there twice; overlapping, always.
+///
+/// A degenerate triangle is the segment or point that it is. As exact as [`intersect`](crate::intersect).
+///
+/// ```
+/// use pliant_exact::{ContactKind, Precision, adjacent_contact};
+///
+/// // Two triangles with corner 0 in common; the second is turned about an axis through it.
+/// let fixed = [[0.0; 3], [4.0, -1.0, 0.0], [4.0, 1.0, 0.0]];
+/// let turned = |x: f64| [[0.0; 3], [x, 0.0, -1.0], [x, 0.0, 1.0]];
+/// let meet = |x| adjacent_contact(Precision::Double, [[0, 1, 2], [0, 3, 4]], &fixed, &turned(x));
+/// assert_eq!(meet(4.0), Some(ContactKind::Crossing));
+/// assert_eq!(meet(-4.0), None);
+/// ```
+pub fn adjacent_contact(
+    precision: Precision,
+    numbers: [[u32; 3]; 2],
+    a: &Triangle,
+    b: &Triangle,
+) -> Option<ContactKind> {
+    match on_lattice(a, b) {
+        Some([a, b]) => beyond_common(numbers, [&a, &b], &mut Lattice),
+        None => beyond_common(numbers, [a, b], &mut Filtered::new(precision)),
+    }
+}
 
 /// How two triangles meet beyond the hull of the corners that they have in common; none if they do
 /// not. Corners are the same if their numbers are.
@@ -24,7 +60,7 @@ use super::triangles::{plane_signs, triangles_intersect};
 ///
 /// A triangle that has a corner twice is the segment or point that it is; of its numbers each
 /// counts once. If all of them are the other's too, K is H.
-pub(super) fn adjacent_contact(
+fn beyond_common(
     numbers: [[u32; 3]; 2],
     [a, b]: [&Triangle; 2],
     orientation: &mut impl Orientation,
@@ -54,7 +90,7 @@ pub(super) fn adjacent_contact(
     let (rest_a, rest_b) = (others(of_a, a), others(of_b, b));
     match common {
         [None, ..] => triangles_intersect(a, b, orientation)
-            .then(|| super::contact_kind::contact_kind(a, b, orientation)),
+            .then(|| contact_kind::contact_kind(a, b, orientation)),
         [Some(p), None, _] => beyond_corner(&a[p], [rest_a, rest_b], orientation),
         [Some(p), Some(q), None] => match (rest_a[0], rest_b[0]) {
             (Some(r), Some(s)) => beyond_edge([&a[p], &a[q]], [&r, &s], orientation),
@@ -200,8 +236,7 @@ fn ends_passed([p, q]: [&Point; 2], point: &Point) -> Sign {
 
 #[cfg(test)]
 mod tests {
-    use super::super::orientation::{Exact, Filtered};
-    use super::super::{Precision, adjacent_contact as decided};
+    use super::super::orientation::Exact;
     use super::*;
     use pliant_oracle::{Random, adjacent_contact as expected};
 
@@ -242,20 +277,20 @@ mod tests {
             let numbers = NUMBERS[round / 12 % NUMBERS.len()];
             let lattice = numbers.map(|of| of.map(|number| places[number as usize]));
             let [a, b] = lattice.map(|triangle| triangle.map(|at| at.map(|x| x as f64)));
-            let found = adjacent_contact(numbers, [&a, &b], &mut Exact);
+            let found = beyond_common(numbers, [&a, &b], &mut Exact);
             assert_eq!(
                 found,
                 expected(numbers, lattice).map(kind),
                 "{numbers:?} {lattice:?}"
             );
             let swapped = [numbers[1], numbers[0]];
-            assert_eq!(found, adjacent_contact(swapped, [&b, &a], &mut Exact));
+            assert_eq!(found, beyond_common(swapped, [&b, &a], &mut Exact));
             let mut filtered = Filtered::new(Precision::Double);
-            assert_eq!(found, adjacent_contact(numbers, [&a, &b], &mut filtered));
+            assert_eq!(found, beyond_common(numbers, [&a, &b], &mut filtered));
             // The same, far from the lattice of the quick way.
             let tiny = 0.5_f64.powi(600);
             let [a, b] = [&a, &b].map(|triangle| triangle.map(|at| at.map(|x| tiny * x)));
-            assert_eq!(found, decided(Precision::Double, numbers, &a, &b));
+            assert_eq!(found, adjacent_contact(Precision::Double, numbers, &a, &b));
             let common = numbers[0].iter().collect::<std::collections::BTreeSet<_>>();
             let common = common
                 .into_iter()

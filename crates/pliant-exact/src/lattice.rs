@@ -18,6 +18,7 @@ const BITS: u64 = 38;
 /// largest of 18 coordinates in [2^k, 2^(k+1))    scale 2^(38 - k): a power of two, so exact
 /// each coordinate, scaled, an integer?           else there is no such lattice
 /// ```
+#[inline]
 pub(super) fn on_lattice(a: &Triangle, b: &Triangle) -> Option<[Triangle; 2]> {
     let coordinates = a.as_flattened().iter().chain(b.as_flattened());
     let largest = coordinates.fold(0, |largest, x| largest.max(x.to_bits() & !SIGN));

@@ -17,6 +17,7 @@ mod ring;
 mod triangles;
 mod vector;
 
+pub use adjacent::adjacent_contact;
 pub use contact_kind::ContactKind;
 pub use element_pairs::{
     ELEMENT_PAIRS, FIRST_OF_EDGES, barycentric, four_corners, is_swapped, on_edge,
@@ -120,40 +121,5 @@ pub fn contact_kind(precision: Precision, a: &Triangle, b: &Triangle) -> Contact
     match on_lattice(a, b) {
         Some([a, b]) => contact_kind::contact_kind(&a, &b, &mut Lattice),
         None => contact_kind::contact_kind(a, b, &mut Filtered::new(precision)),
-    }
-}
-
-/// How two triangles of one mesh meet beyond the hull of the corners that they have in common, if
-/// they do. Corners of equal `numbers` are one vertex, and stand in one place.
-///
-/// - **No corner in common**: whether they [intersect], and how.
-/// - **One**: the opposite edge of one meets the other triangle. They cross if they still do after
-///   every small enough move of the vertices. They overlap if they lie in one plane with an area in
-///   common. Else they touch.
-/// - **Two**: they lie in one plane, on one side of the edge in common, and overlap. Triangles
-///   without area touch, if they go on along the line of the edge beyond the same end.
-/// - **Three**: the triangle is there twice; overlapping, always.
-///
-/// A degenerate triangle is the segment or point that it is. As exact as [`intersect`].
-///
-/// ```
-/// use pliant_exact::{ContactKind, Precision, adjacent_contact};
-///
-/// // Two triangles with corner 0 in common; the second is turned about an axis through it.
-/// let fixed = [[0.0; 3], [4.0, -1.0, 0.0], [4.0, 1.0, 0.0]];
-/// let turned = |x: f64| [[0.0; 3], [x, 0.0, -1.0], [x, 0.0, 1.0]];
-/// let meet = |x| adjacent_contact(Precision::Double, [[0, 1, 2], [0, 3, 4]], &fixed, &turned(x));
-/// assert_eq!(meet(4.0), Some(ContactKind::Crossing));
-/// assert_eq!(meet(-4.0), None);
-/// ```
-pub fn adjacent_contact(
-    precision: Precision,
-    numbers: [[u32; 3]; 2],
-    a: &Triangle,
-    b: &Triangle,
-) -> Option<ContactKind> {
-    match on_lattice(a, b) {
-        Some([a, b]) => adjacent::adjacent_contact(numbers, [&a, &b], &mut Lattice),
-        None => adjacent::adjacent_contact(numbers, [a, b], &mut Filtered::new(precision)),
     }
 }

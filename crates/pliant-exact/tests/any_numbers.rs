@@ -8,7 +8,7 @@ use pliant_exact::motion::{
     Grid, Moving, distant_until, first_contact, impact, starts_surely_within,
 };
 use pliant_exact::{Point, Precision, are_boxes_within, contact_kind, intersect, is_degenerate};
-use pliant_exact::{reference, side_of_plane};
+use pliant_exact::{adjacent_contact, reference, side_of_plane};
 use pliant_oracle::Random;
 
 const NUMBERS: [f64; 16] = [
@@ -50,6 +50,13 @@ fn any_numbers_are_answered() {
         for precision in [Precision::Single, Precision::Double] {
             intersect(precision, &a, &b, &mut 0);
             contact_kind(precision, &a, &b);
+            for numbers in [
+                [[0, 1, 2], [0, 3, 4]],
+                [[0, 1, 2], [0, 1, 3]],
+                [[0, 0, 1], [1, 2, 3]],
+            ] {
+                adjacent_contact(precision, numbers, &a, &b);
+            }
             are_triangles_within(precision, &a, &b, distance);
             let known = SomePoints {
                 which: 3,

@@ -19,8 +19,8 @@ use crate::kernels::Instructions;
 use crate::threads::{Executor, Interrupt};
 use body_tree::BodyTree;
 pub(crate) use overlap::Overlap;
-pub(crate) use rows::Keep;
 use rows::Pass;
+pub(crate) use rows::{Keep, Show};
 use std::ops::ControlFlow;
 use sweep_and_prune::{SweepAndPrune, Unfinished};
 
@@ -88,7 +88,7 @@ impl BroadPhase {
         }
     }
 
-    /// Appends the next pairs of the pass that are kept, in order, about `most` at once. Returns
+    /// Shows the next pairs of the pass that are kept, in order, about `most` at once. Returns
     /// whether more may follow.
     ///
     /// A call looks at all pairs of at least one body. After an interruption it returns true.
@@ -97,14 +97,15 @@ impl BroadPhase {
         threads: (Executor, Instructions),
         boxes: &[Aabb],
         (most, keep): (usize, Keep),
-        pairs: &mut Vec<Overlap>,
+        show: Show,
     ) -> bool {
         if self.way == Way::Sweep {
-            pairs.extend(self.sweep.pairs.iter().filter(|&&pair| keep(pair)));
+            let kept = self.sweep.pairs.chunks(1).filter(|pair| keep(pair[0]));
+            kept.for_each(show);
             return false;
         }
         let tree = (self.way == Way::Tree).then_some(&self.tree);
-        let done = self.pass.next(threads, tree, boxes, (most, keep), pairs);
+        let done = self.pass.next(threads, tree, boxes, (most, keep), show);
         if let Some(tested) = done
             && self.way == Way::Tree
         {
@@ -167,7 +168,8 @@ mod tests {
         let mut pairs = Vec::new();
         for (instructions, most) in Instructions::all().into_iter().cycle().zip(1..) {
             let any: (usize, Keep) = (40 * most, &|_| true);
-            if !broad_phase.next((executor, instructions), boxes, any, &mut pairs) {
+            let show: Show = &mut |found| pairs.extend_from_slice(found);
+            if !broad_phase.next((executor, instructions), boxes, any, show) {
                 break;
             }
         }

@@ -20,13 +20,15 @@ pub(super) struct Rows {
     /// Bodies whose rows are still to be found.
     rest: Range<u32>,
     /// Pairs that were found and are kept.
-    pub(super) pairs: Vec<Overlap>,
-    row: Vec<Overlap>,
+    pairs: Vec<Overlap>,
     descent: Descent,
 }
 
 /// Which pairs are kept.
 pub(crate) type Keep<'k> = &'k (dyn Fn(Overlap) -> bool + Sync);
+
+/// Who is shown the pairs that are kept, some at a time.
+pub(crate) type Show<'s> = &'s mut dyn FnMut(&[Overlap]);
 
 /// A pass over the rows of all bodies, at the body that is next.
 #[derive(Debug, Default)]
@@ -48,7 +50,7 @@ impl Pass {
         }
     }
 
-    /// Appends the pairs of the next rows, in order: of one row at least, about `most` at once.
+    /// Shows the pairs of the next rows, in order: of one row at least, about `most` at once.
     ///
     /// Returns how many nodes the pass has tested when it is done. Without a tree all boxes are
     /// compared.
@@ -58,7 +60,7 @@ impl Pass {
         tree: Option<&BodyTree>,
         boxes: &[Aabb],
         (most, keep): (usize, Keep),
-        pairs: &mut Vec<Overlap>,
+        show: Show,
     ) -> Option<usize> {
         let end = boxes.len() as u32;
         let left = (end - self.next) as usize;
@@ -92,9 +94,10 @@ impl Pass {
             [job] => find(job),
             jobs => executor.run(jobs, nanoseconds, |_, job| find(job)),
         }
-        let (first, before) = (self.next, pairs.len());
+        let (first, mut shown) = (self.next, 0);
         for job in &self.jobs[..jobs] {
-            pairs.extend_from_slice(&job.pairs);
+            show(&job.pairs);
+            shown += job.pairs.len();
             self.tested += job.descent.tested;
             self.next = job.rest.start;
             if !job.rest.is_empty() {
@@ -104,7 +107,7 @@ impl Pass {
         }
         if threads > 1 {
             let rows = (self.next - first).max(1);
-            self.pairs_a_row = (pairs.len() - before) / rows as usize;
+            self.pairs_a_row = shown / rows as usize;
         }
         (self.next == end).then_some(self.tested)
     }
@@ -127,14 +130,13 @@ impl Rows {
     ) {
         while !self.rest.is_empty() && self.pairs.len() < most && !executor.is_interrupted() {
             let body = Rank(self.rest.start);
-            self.row.clear();
-            let (row, descent) = (&mut self.row, &mut self.descent);
+            let (pairs, descent) = (&mut self.pairs, &mut self.descent);
+            let before = pairs.len();
             match tree {
-                Some(tree) => tree.row(instructions, body, &boxes[body.index()], descent, row),
-                None => brute_force::row(boxes, body, row),
+                Some(tree) => tree.row(instructions, body, &boxes[body.index()], descent, pairs),
+                None => brute_force::row(boxes, body, pairs),
             }
-            self.pairs
-                .extend(self.row.iter().filter(|&&pair| keep(pair)));
+            let _ = pairs.extract_if(before.., |&mut pair| !keep(pair)).count();
             self.rest.start += 1;
         }
     }
@@ -142,4 +144,4 @@ impl Rows {
 
 held!(Pass: jobs);
 
-held!(Rows: pairs[], row[], descent);
+held!(Rows: pairs[], descent);

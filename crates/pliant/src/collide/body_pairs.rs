@@ -5,7 +5,7 @@
 //! not need. If one batch holds all pairs, it is kept until something moves.
 
 use crate::bodies::Bodies;
-use crate::broad_phase::{BroadPhase, Keep, Overlap};
+use crate::broad_phase::{BroadPhase, Keep, Overlap, Show};
 use crate::error::Error;
 use crate::geometry::{Aabb, Origin};
 use crate::held::held;
@@ -32,8 +32,6 @@ pub(crate) struct BodyPairs {
     /// loose ones where there are any.
     exact: Vec<Aabb>,
     broad: Vec<Aabb>,
-    /// Scratch: pairs of the last rows of the broad phase.
-    rows: Vec<Overlap>,
     /// Last batch of different bodies of the whole world, in the order of ids, the smaller first.
     of_world: Vec<BodyPair>,
     /// Kind of bodies' boxes behind `of_world`, if that holds all pairs and nothing has changed
@@ -68,7 +66,6 @@ impl BodyPairs {
             broad_phase: BroadPhase::new(rule),
             exact: Vec::new(),
             broad: Vec::new(),
-            rows: Vec::new(),
             of_world: Vec::new(),
             holds_for: None,
             named: Vec::new(),
@@ -179,7 +176,6 @@ impl BodyPairs {
     ) -> bool {
         let Self {
             exact,
-            rows,
             of_world,
             broad_phase,
             broad,
@@ -194,10 +190,9 @@ impl BodyPairs {
         let most = BATCH.max(PAIRS_A_BODY * bodies.len());
         of_world.clear();
         while of_world.len() < most && !executor.is_interrupted() {
-            rows.clear();
             let more = (most - of_world.len(), &keep as Keep);
-            let are_more = broad_phase.next((executor, instructions), broad, more, rows);
-            of_world.extend(rows.iter().map(|&pair| places(pair)));
+            let show: Show = &mut |found| of_world.extend(found.iter().map(|&pair| places(pair)));
+            let are_more = broad_phase.next((executor, instructions), broad, more, show);
             if !are_more {
                 return false;
             }
@@ -239,4 +234,4 @@ impl BodyPairs {
     }
 }
 
-held!(BodyPairs: exact[], broad[], rows[], of_world[], named[], broad_phase);
+held!(BodyPairs: exact[], broad[], of_world[], named[], broad_phase);

@@ -390,7 +390,7 @@ impl Together {
         &mut self,
         step: &mut Step,
         bodies: &mut Bodies<S>,
-        sets: impl Fn(&Self) -> &DirtySets,
+        sets: fn(&Self) -> &DirtySets,
         make: MakeBoxes<S>,
     ) -> ControlFlow<()> {
         let mut concerned = std::mem::take(&mut self.concerned);

@@ -167,7 +167,7 @@ impl Task {
             left_out: left_out(needs, &context.pair),
             is_one_tree: context.pair.is_one_tree(),
             defers: exchange.is_some(),
-            is_anyone_idle: &|| exchange.is_some_and(Exchange::wants_short_pieces),
+            wants_short_pieces: &|| exchange.is_some_and(Exchange::wants_short_pieces),
             notes_leaves: needs.triangles() && !are_free(needs, sides),
         };
         self.walk.go(trees, &rules);

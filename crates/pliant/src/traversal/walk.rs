@@ -23,8 +23,8 @@ pub(super) struct Rules<'q> {
     pub(super) is_one_tree: bool,
     /// Whether pairs of nodes that need stale boxes are deferred; otherwise the walk stops at them.
     pub(super) defers: bool,
-    /// Whether another task waits for pairs of nodes.
-    pub(super) is_anyone_idle: &'q dyn Fn() -> bool,
+    /// Whether to stop soon, so that pairs of nodes can be given to another task.
+    pub(super) wants_short_pieces: &'q dyn Fn() -> bool,
     /// Whether the leaves that are reached are noted, since their triangles' boxes are still stale.
     pub(super) notes_leaves: bool,
 }
@@ -77,7 +77,7 @@ impl Walk {
         let complete = trees.iter().all(|tree| tree.boxes.are_nodes_complete());
         loop {
             let (batch, found) = (&self.batch, &mut self.found);
-            let is_any = !batch.is_empty();
+            let has_expanded = !batch.is_empty();
             expand(instructions, trees, is_one_tree, batch, left_out, found);
             self.batch.clear();
             for (set, reached) in self.reached.iter_mut().zip(&mut self.found.reached) {
@@ -92,7 +92,8 @@ impl Walk {
             if stack == 0 || stack >= limits.stack || self.found.leaves.len() >= limits.leaf_pairs {
                 return;
             }
-            if rules.interrupt.is_set() || is_any && stack > 1 && (rules.is_anyone_idle)() {
+            if rules.interrupt.is_set() || has_expanded && stack > 1 && (rules.wants_short_pieces)()
+            {
                 return;
             }
             self.found.nodes.take_last(limits.batch, &mut self.batch);

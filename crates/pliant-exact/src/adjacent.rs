@@ -23,7 +23,8 @@ use super::triangles::{plane_signs, triangles_intersect};
 ///   without area touch, if they go on along the line of the edge beyond the same end.
 /// - **Three**: the triangle is there twice; overlapping, always.
 ///
-/// A degenerate triangle is the segment or point that it is. As exact as [`intersect`](crate::intersect).
+/// A degenerate triangle is the segment or point that it is. As exact as
+/// [`intersect`](crate::intersect).
 ///
 /// ```
 /// use pliant_exact::{ContactKind, Precision, adjacent_contact};

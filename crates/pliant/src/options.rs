@@ -37,8 +37,9 @@ pub struct Options {
     /// the system gives none, the calling thread does it all.
     ///
     /// More threads than the work pays for sleep. Where other programs use the cores, fewer may be
-    /// quicker: `pliant bench cores` measures your machine. More than 256 are taken as 256. For a fifth of a millisecond
-    /// after a query, threads of the world look for more work before they sleep.
+    /// quicker: `pliant bench cores` measures your machine. More than 256 are taken as 256. For a
+    /// fifth of a millisecond after a query, threads of the world look for more work before they
+    /// sleep.
     pub threads: NonZeroUsize,
     /// Whether trees of bodies [mend themselves](crate::World::tree_quality). Default: no.
     ///

@@ -11,7 +11,7 @@ use crate::usd::{self, Raised};
 use numpy::{IntoPyArray, PyArray1};
 use pliant_check::{
     Baseline, BodyFacts, BodyThere, Check as Running, Error, FirstImpact, Found, Frames, Group,
-    Interval, Life, Place, Settings, Split,
+    Interval, Kinds, Life, Place, Settings, Split,
 };
 use pliant_io::{OpenOptions, shown};
 use pyo3::exceptions::PyUserWarning;
@@ -142,6 +142,9 @@ impl Name {
 /// - crossing: leaves out places where surfaces only touch, as along a cut. No triangles cross
 ///   there, and no surface passes through another, not even exactly at edges and vertices. Where
 ///   sides are unclear a place stays. Frame.only_touching counts the pairs. Not with within
+/// - ignore_adjacent: leaves out triangles of one body that share a vertex and meet beyond it. They
+///   go through each other elsewhere, are folded onto each other, or are one triangle twice.
+///   Frame.adjacent counts them apart
 /// - swept: also what meets on straight lines from each frame to the next: Frame.interval. A frame
 ///   comes when the next has been read. Not with within or baseline
 /// - first: stops at the first pair of each frame, and of each interval
@@ -169,15 +172,15 @@ impl Name {
 #[pyfunction]
 #[pyo3(
     signature = (
-        *paths, itself=false, within=None, crossing=false, swept=false, first=false, weld=true,
-        weld_tolerance=0.0, split=None, groups=None, ignore=None, baseline=None,
-        skip_degenerate=false, places=false, frames=None, clip=None, fps=30.0,
+        *paths, itself=false, within=None, crossing=false, ignore_adjacent=false, swept=false,
+        first=false, weld=true, weld_tolerance=0.0, split=None, groups=None, ignore=None,
+        baseline=None, skip_degenerate=false, places=false, frames=None, clip=None, fps=30.0,
         threads=Threads::Count(1)
     ),
-    text_signature = "(*paths, itself=False, within=None, crossing=False, swept=False, \
-        first=False, weld=True, weld_tolerance=0.0, split=None, groups=None, ignore=None, \
-        baseline=None, skip_degenerate=False, places=False, frames=None, clip=None, fps=30.0, \
-        threads=1)"
+    text_signature = "(*paths, itself=False, within=None, crossing=False, ignore_adjacent=False, \
+        swept=False, first=False, weld=True, weld_tolerance=0.0, split=None, groups=None, \
+        ignore=None, baseline=None, skip_degenerate=False, places=False, frames=None, clip=None, \
+        fps=30.0, threads=1)"
 )]
 #[expect(
     clippy::too_many_arguments,
@@ -190,6 +193,7 @@ pub(crate) fn check(
     itself: bool,
     within: Option<f64>,
     crossing: bool,
+    ignore_adjacent: bool,
     swept: bool,
     first: bool,
     weld: bool,
@@ -215,6 +219,7 @@ pub(crate) fn check(
         itself,
         within,
         crossing,
+        ignore_adjacent,
         swept,
         first,
         split: split.map(split_named).transpose()?,
@@ -271,6 +276,11 @@ pub(crate) fn check(
             warn(py, &format!("{}: {note}", shown(source.name())))?;
         }
     }
+    if running.lacks_adjacent() {
+        let text = "the baseline has no pairs that share a vertex, so all of these count as new; \
+                    write it again, or leave them out with ignore_adjacent=True";
+        warn(py, text)?;
+    }
     Ok(Check {
         bodies: facts(py, &running)?.unbind(),
         frame_count: running.frame_count(),
@@ -315,7 +325,7 @@ impl Check {
         };
         let ((found, meshes), interval) = found;
         let has_met = interval.as_ref().is_some_and(|interval| interval.count > 0);
-        if found.count > 0 || has_met {
+        if found.count_of_all() > 0 || has_met {
             self.has_found.store(true, Ordering::Relaxed);
         }
         let changed = PyDict::new(py);
@@ -323,9 +333,13 @@ impl Check {
             let faces = of.faces.map(|faces| faces.into_pyarray(py));
             changed.set_item(number, fact(py, of.body, faces.as_ref(), of.welded)?)?;
         }
-        let kinds = found.kinds;
-        let kinds = kinds.map(|kinds| -> PyResult<_> {
-            named!(py, "Kinds" of kinds: crossing, overlapping, touching)
+        let kinds_of = |kinds: Kinds| named!(py, "Kinds" of kinds: crossing, overlapping, touching);
+        let kinds = found.kinds.map(kinds_of);
+        let adjacent = found.adjacent.map(|it| -> PyResult<_> {
+            named!(py, "Adjacent":
+                count = it.count, pairs = Rows(it.pairs), kinds = kinds_of(it.kinds)?,
+                twice = it.twice, left_out = it.left_out, only_touching = it.only_touching,
+                degenerate = it.degenerate)
         });
         let places = found.places;
         let places = places.map(|places| tuple(py, places.iter().map(|it| place(py, it))));
@@ -334,7 +348,8 @@ impl Check {
             frame = found.frame, count = found.count, distance = found.distance,
             kinds = kinds.transpose()?, complete = found.complete, left_out = found.left_out,
             only_touching = found.only_touching, degenerate = found.degenerate,
-            changed = changed, pairs = Rows(found.pairs), places = places.transpose()?,
+            changed = changed, pairs = Rows(found.pairs), adjacent = adjacent.transpose()?,
+            places = places.transpose()?,
             interval = interval.transpose()?)?))
     }
 

@@ -61,7 +61,7 @@ impl Selection {
     #[classattr]
     pub(crate) const WORLD: Self = Self(pliant::Selection::World);
     #[classattr]
-    const EVERYTHING: Self = Self(pliant::Selection::Everything);
+    pub(crate) const EVERYTHING: Self = Self(pliant::Selection::Everything);
 
     /// Two different bodies, whatever filters say. Body a is the first of every hit.
     ///

@@ -60,3 +60,31 @@ def test_kinds_that_are_none() -> None:
         world_of().contacts(only=3)
     with pytest.raises(TypeError):
         world_of().contacts(only="crossing")  # type: ignore[arg-type]
+
+
+# Two triangles with a corner, an edge or all corners in common.
+ADJACENT = [
+    ([[0, 1, 2], [0, 3, 4]], [[0, 0, 0], [4, 1, -1], [4, 1, 1], [4, 0, 0], [4, 2, 0]], ContactKind.CROSSING),
+    ([[0, 1, 2], [1, 0, 3]], [[0, 0, 0], [4, 0, 0], [1, 2, 0], [2, 1, 0]], ContactKind.OVERLAPPING),
+    ([[0, 1, 2], [0, 2, 1]], [[0, 0, 0], [4, 0, 0], [1, 2, 0]], ContactKind.OVERLAPPING),
+    ([[0, 1, 2], [0, 3, 4]], [[0, 0, 0], [4, 0, 0], [4, 1, 0], [2, 0, 0], [2, -1, 1]], ContactKind.TOUCHING),
+    ([[0, 1, 2], [0, 3, 4]], [[0, 0, 0], [4, 0, 0], [4, 1, 0], [-4, 0, 0], [-4, 1, 0]], None),
+]
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_triangles_that_share_a_vertex(dtype: type) -> None:
+    world = pliant.World()
+    for faces, corners, _ in ADJACENT:
+        world.add(faces, np.array(corners, dtype))
+    contacts = world.adjacent_intersections().all()
+    expected = [(body, kind) for body, (_, _, kind) in enumerate(ADJACENT) if kind is not None]
+    assert contacts.pairs.tolist() == [[body, 0, body, 1] for body, _ in expected]
+    assert contacts.kind.tolist() == [kind for _, kind in expected]
+    crossing = world.adjacent_intersections(Selection.within(0), only=ContactKind.CROSSING)
+    first = crossing.first()
+    assert first is not None and tuple(first.pair) == (0, 0, 0, 1) and first.kind is ContactKind.CROSSING
+    assert world.adjacent_intersections(Selection.within(4)).first() is None
+    for of in (Selection.WORLD, Selection.between(0, 1)):
+        assert len(world.adjacent_intersections(of).all().pairs) == 0
+    assert repr(crossing) == "<pliant.ContactQuery of Selection.within(0), adjacent, only Crossing>"

@@ -340,6 +340,7 @@ def test_what_is_no_selection_is_told_what_is(given: Any) -> None:
     calls: list[Callable[[], Any]] = [
         lambda: world.intersections(given),
         lambda: world.contacts(given),
+        lambda: world.adjacent_intersections(given),
         lambda: world.vertex_triangle_candidates(given, 0.1),
         lambda: world.close_triangle_pairs(given, 0.1),
         lambda: world.edge_edge_impacts(given),

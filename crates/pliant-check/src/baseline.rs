@@ -36,9 +36,20 @@ struct WrittenFrame {
     count: Option<usize>,
     complete: Option<bool>,
     pairs: Option<Vec<Row>>,
+    /// `None` in files from before such pairs were found, or where they were not asked for.
+    adjacent: Option<usize>,
+    adjacent_pairs: Option<Vec<Row>>,
     changed: Option<serde::de::IgnoredAny>,
     /// Present in intervals between frames only.
     until: Option<serde::de::IgnoredAny>,
+}
+
+/// Known pairs, sorted: those that share no vertex, and those that do.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Known {
+    pub(crate) pairs: Vec<Row>,
+    /// `None` if the baseline does not have them.
+    pub(crate) adjacent: Option<Vec<Row>>,
 }
 
 /// Reads the pairs, sorted, with the bodies' current numbers. `most` is the limit of the file's
@@ -48,7 +59,7 @@ pub(crate) fn read(
     sources: &[Source],
     bodies: &Bodies,
     most: u64,
-) -> Result<Vec<Row>, Error> {
+) -> Result<Known, Error> {
     let bad = |why: String| Error::BadBaseline {
         file: path.to_owned(),
         why,
@@ -100,18 +111,30 @@ pub(crate) fn read(
         let ((body_a, a), (body_b, b)) = (one.min(other), one.max(other));
         Ok([body_a, a, body_b, b])
     };
-    let mut rows = Vec::new();
-    for (frame, place) in written.frames.iter().zip(0..) {
-        for (&row, pair) in frame.pairs.iter().flatten().zip(0_usize..) {
-            let row_now = row_now(row);
-            let of_frame = frame.frame.unwrap_or(place);
-            let why = |why: String| bad(format!("frame {of_frame}, pair {pair}, {row:?}: {why}"));
-            rows.push(row_now.map_err(why)?);
+    let rows_of = |list: fn(&WrittenFrame) -> &Option<Vec<Row>>, what: &str| {
+        let mut rows = Vec::new();
+        for (frame, place) in written.frames.iter().zip(0..) {
+            for (&row, pair) in list(frame).iter().flatten().zip(0_usize..) {
+                let row_now = row_now(row);
+                let of_frame = frame.frame.unwrap_or(place);
+                let why =
+                    |why: String| bad(format!("frame {of_frame}, {what} {pair}, {row:?}: {why}"));
+                rows.push(row_now.map_err(why)?);
+            }
         }
-    }
-    rows.sort_unstable();
-    rows.dedup();
-    Ok(rows)
+        rows.sort_unstable();
+        rows.dedup();
+        Ok::<_, Error>(rows)
+    };
+    let mut frames = written.frames.iter();
+    let has_adjacent = frames.all(|frame| frame.adjacent_pairs.is_some());
+    Ok(Known {
+        pairs: rows_of(|frame| &frame.pairs, "pair")?,
+        adjacent: match has_adjacent {
+            true => Some(rows_of(|frame| &frame.adjacent_pairs, "adjacent pair")?),
+            false => None,
+        },
+    })
 }
 
 /// Parses the file, and refuses it if it lacks pairs.
@@ -157,14 +180,25 @@ fn parse(path: &Path, most: u64) -> Result<Written, String> {
                  numbers; a baseline needs meshes that stay"
             ));
         }
-        let listed = frame.pairs.as_ref().map_or(0, Vec::len);
-        match frame.count {
-            Some(count) if count != listed => {
-                return Err(format!(
-                    "in its frame {number} it counts {count} pairs and lists {listed}; write it \
+        let differ = |count: usize, list: &Option<Vec<Row>>, pairs: &str| {
+            let listed = list.as_ref().map_or(0, Vec::len);
+            (count != listed).then(|| {
+                format!(
+                    "in its frame {number} it counts {count} {pairs} and lists {listed}; write it \
                      again with all of them"
-                ));
-            }
+                )
+            })
+        };
+        let adjacent = frame.adjacent.unwrap_or_default();
+        if let Some(why) = differ(adjacent, &frame.adjacent_pairs, "adjacent pairs") {
+            return Err(why);
+        }
+        if let Some(count) = frame.count
+            && let Some(why) = differ(count, &frame.pairs, "pairs")
+        {
+            return Err(why);
+        }
+        match frame.count {
             Some(_) if frame.complete != Some(false) => {}
             _ => {
                 return Err(format!(

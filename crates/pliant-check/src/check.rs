@@ -1,12 +1,12 @@
 //! The loop of a check: reads the sources frame by frame and finds the pairs of each frame.
 
 use crate::any_world::AnyWorld;
-use crate::baseline;
+use crate::baseline::{self, Known};
 use crate::bodies::{Bodies, BodyFacts};
 use crate::elements::Owners;
 use crate::error::Error;
 use crate::filter::Filter;
-use crate::found::{Closeness, Found, Gap, How, MOST_COUNTED, Stop, Taker};
+use crate::found::{Adjacent, Closeness, Found, Gap, How, MOST_COUNTED, Stop, Taker};
 use crate::interval::{ElementPair, Impact, ImpactTaker, Interval, WIDTH};
 use crate::joined::Meshes;
 use crate::lives::{Life, Lives};
@@ -21,7 +21,7 @@ use crate::touching::{BYTES_OF_TOUCHING, only_touch};
 use crate::with_world;
 use pliant::{ContactKind, ErrorKind, Query, Selection};
 use pliant_io::{Body as Source, OpenOptions};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::{ControlFlow, Range};
 
 /// The caller's stop callback.
@@ -122,8 +122,8 @@ impl Meshes for SplitSources<'_> {
 /// Known pairs, which are left out, and the meshes for which they hold.
 struct KnownPairs {
     frame: usize,
-    /// Sorted; `None` until the frame was checked.
-    pairs: Option<Vec<Row>>,
+    /// `None` until the frame was checked.
+    known: Option<Known>,
     /// Mesh numbers of the sources in that frame.
     meshes: Vec<MeshNumber>,
     /// Whether each source now has the mesh that it has in that frame.
@@ -131,18 +131,21 @@ struct KnownPairs {
 }
 
 impl KnownPairs {
-    fn of(frame: usize, pairs: Option<Vec<Row>>, sources: usize) -> Self {
+    fn of(frame: usize, known: Option<Known>, sources: usize) -> Self {
         Self {
             frame,
-            pairs,
+            known,
             meshes: vec![FIRST; sources],
             comparable: vec![true; sources],
         }
     }
 
     /// Stores the pairs of the baseline's frame, in which the sources are now.
-    fn take(&mut self, pairs: Vec<Row>, sequence: &Sequence) {
-        self.pairs = Some(pairs);
+    fn take(&mut self, found: Found, sequence: &Sequence) {
+        self.known = Some(Known {
+            pairs: found.pairs,
+            adjacent: found.adjacent.map(|adjacent| adjacent.pairs),
+        });
         self.meshes.clone_from(&sequence.meshes);
     }
 
@@ -231,8 +234,8 @@ impl Check {
             }
             Some(settings::Baseline::File(file)) => {
                 let most = settings.max_list;
-                let pairs = baseline::read(file, &sequence.sources, &bodies, most)?;
-                Some(KnownPairs::of(0, Some(pairs), sequence.sources.len()))
+                let known = baseline::read(file, &sequence.sources, &bodies, most)?;
+                Some(KnownPairs::of(0, Some(known), sequence.sources.len()))
             }
         };
         let all = Frames {
@@ -518,7 +521,7 @@ impl Check {
         }
         self.from = None;
         if let Some(KnownPairs {
-            frame, pairs: None, ..
+            frame, known: None, ..
         }) = self.baseline
         {
             let wanted = Wanted {
@@ -529,7 +532,7 @@ impl Check {
             };
             let found = self.found_in(frame, wanted, stop)?;
             if let Some(baseline) = &mut self.baseline {
-                baseline.take(found.pairs, &self.sequence);
+                baseline.take(found, &self.sequence);
             }
         }
         let frame = self.frames.start;
@@ -717,7 +720,8 @@ impl Check {
             ..
         } = wanted;
         let baseline = self.baseline.take();
-        let known = baseline.as_ref().and_then(|it| it.pairs.as_deref());
+        let known = baseline.as_ref().and_then(|it| it.known.as_ref());
+        let known_pairs = known.map(|known| &known.pairs[..]);
         let lists_gaps = self.asked.within.is_some() && self.asked.closest_points;
         let more = match crossing {
             true => BYTES_OF_TOUCHING,
@@ -727,7 +731,7 @@ impl Check {
         let most = self.asked.max_list / (size_of::<Row>() + more) as u64;
         let most = usize::try_from(most).unwrap_or(usize::MAX);
         let skip = self.asked.skip_degenerate;
-        let mut taker = Taker::new(frame, first, listed, most, known)
+        let mut taker = Taker::new(frame, first, listed, most, known_pairs)
             .skip_degenerate(skip)
             .list_gaps(lists_gaps)
             .count_kinds(!first && self.asked.within.is_none());
@@ -740,7 +744,25 @@ impl Check {
         } else {
             self.take_all(&mut taker, wanted, comparable.unwrap_or(&[]), stop)
         };
-        let found = taker.end();
+        let mut found = taker.end();
+        let mut visited = visited;
+        // Of a frame whose first pair is known no other is asked for.
+        let is_asked = self.asks_adjacent() && !(first && found.count > 0);
+        if is_asked && matches!(visited, Ok(ControlFlow::Continue(()))) {
+            let known = known.map(|known| known.adjacent.as_deref().unwrap_or_default());
+            let most = most.saturating_sub(found.pairs.len());
+            let taker = Taker::new(frame, first, listed, most, known)
+                .skip_degenerate(skip)
+                .count_kinds(true);
+            let comparable = comparable.unwrap_or(&[]);
+            match self.take_adjacent(taker, wanted, comparable, stop) {
+                Ok((adjacent, stopped)) => {
+                    found.adjacent = Some(adjacent);
+                    visited = Ok(stopped);
+                }
+                Err(error) => visited = Err(error),
+            }
+        }
         self.baseline = baseline;
         match visited.map_err(|error| self.refused(frame, error))? {
             ControlFlow::Break(Stop::Full(most)) => Err(Error::TooManyPairs { frame, most }),
@@ -750,6 +772,86 @@ impl Check {
             }
             ControlFlow::Continue(()) | ControlFlow::Break(Stop::First) => Ok(found),
         }
+    }
+
+    /// Whether pairs that share a vertex are asked for: wherever a source meets itself.
+    pub fn asks_adjacent(&self) -> bool {
+        !self.asked.ignore_adjacent
+            && self.asked.within.is_none()
+            && !self.sources_with_themselves().is_empty()
+    }
+
+    /// Whether the baseline has no pairs that share a vertex, although they are asked for.
+    ///
+    /// All that are found count as new then.
+    pub fn lacks_adjacent(&self) -> bool {
+        let known = self.baseline.as_ref().and_then(|it| it.known.as_ref());
+        self.asks_adjacent() && known.is_some_and(|known| known.adjacent.is_none())
+    }
+
+    /// Takes the pairs that share a vertex and meet beyond it.
+    fn take_adjacent(
+        &mut self,
+        mut taker: Taker,
+        wanted: Wanted,
+        comparable: &[bool],
+        question: Option<Question>,
+    ) -> Result<(Adjacent, ControlFlow<Stop>), pliant::Error> {
+        let Self {
+            of,
+            sequence,
+            bodies,
+            filter,
+            places,
+            asked: Settings { itself, .. },
+            ..
+        } = self;
+        let Sequence { world, sources, .. } = sequence;
+        let mut stop = ControlFlow::Continue(());
+        let mut touching = 0;
+        let mut twice = BTreeSet::new();
+        let mut take = |of_sources: Row, kind: ContactKind| {
+            let Some(row) = row_asked(bodies, filter, *itself, of_sources) else {
+                return ControlFlow::Continue(());
+            };
+            if wanted.crossing && kind == ContactKind::Touching {
+                touching += 1;
+                return ControlFlow::Continue(());
+            }
+            let [source, a, _, b] = of_sources.map(|number| number as usize);
+            let degenerate = has_degenerate(sources, of_sources);
+            let before = taker.count();
+            let is_comparable = comparable.get(source) == Some(&true);
+            stop = taker.take(
+                row,
+                How::Intersecting(Some(kind)),
+                degenerate,
+                is_comparable,
+            );
+            if taker.count() > before {
+                let triangles = sources[source].triangles();
+                let sorted = |triangle: usize| {
+                    let mut corners = triangles[triangle];
+                    corners.sort_unstable();
+                    corners
+                };
+                if sorted(a) == sorted(b) {
+                    twice.insert([source, b]);
+                }
+                if wanted.places {
+                    places.take(&SplitSources(sources, bodies), of_sources, row);
+                }
+            }
+            stop.map_break(|_| ())
+        };
+        let _ = with_world!(world, world => {
+            unless(question, world.adjacent_intersections(*of))
+                .visit(|contact| take(contact.pair.into(), contact.kind))
+        })?;
+        if wanted.crossing {
+            taker.leave_touching(touching);
+        }
+        Ok((taker.end_adjacent(twice.len()), stop))
     }
 
     /// Finds impacts between two frames. The world is in the first, with a motion to the second.

@@ -6,6 +6,7 @@
 use crate::places::Place;
 use crate::row::Row;
 use pliant::ContactKind;
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 
 /// Pairs of a frame.
@@ -33,6 +34,9 @@ pub struct Found {
     ///
     /// Empty if [`closest_points`](crate::Settings::closest_points) is not set.
     pub gaps: Vec<Gap>,
+    /// Pairs of triangles of one source that share a vertex and meet beyond it. `None` if they were
+    /// not asked for.
+    pub adjacent: Option<Adjacent>,
     /// Number of pairs left out because the baseline has them. `None` without a baseline, or if the
     /// search stopped at the first new pair.
     pub left_out: Option<usize>,
@@ -47,6 +51,49 @@ pub struct Found {
     pub places: Option<Vec<Place>>,
 }
 
+/// Pairs of one source that share a vertex of it, after welding, and meet beyond what they share.
+///
+/// They are counted apart: [`Found::count`] has none of them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Adjacent {
+    /// Number of pairs; at most one if only the first was asked for.
+    pub count: usize,
+    /// Numbers of pairs of each kind.
+    pub kinds: Kinds,
+    /// Number of triangles that stand twice: a triangle before them has the same three vertices.
+    pub twice: usize,
+    /// The smallest pair.
+    pub smallest: Option<Row>,
+    /// All pairs, sorted; empty if they are not listed.
+    pub pairs: Vec<Row>,
+    /// Number of pairs left out because the baseline has them. `None` as in [`Found`].
+    pub left_out: Option<usize>,
+    /// Number of pairs left out because they only touch. `None` if
+    /// [`crossing`](crate::Settings::crossing) is not set.
+    pub only_touching: Option<usize>,
+    /// Number of pairs with a triangle without area: among these, or left out if such pairs are.
+    pub degenerate: usize,
+}
+
+impl Found {
+    /// Number of all pairs, those that share a vertex too.
+    pub fn count_of_all(&self) -> usize {
+        self.count + self.adjacent.as_ref().map_or(0, |adjacent| adjacent.count)
+    }
+
+    /// All pairs that are listed, those that share a vertex too, sorted.
+    pub fn all_pairs(&self) -> Cow<'_, [Row]> {
+        match &self.adjacent {
+            Some(adjacent) if !adjacent.pairs.is_empty() => {
+                let mut all = [&self.pairs[..], &adjacent.pairs].concat();
+                all.sort_unstable();
+                Cow::Owned(all)
+            }
+            _ => Cow::Borrowed(&self.pairs),
+        }
+    }
+}
+
 /// Numbers of intersecting pairs by [`ContactKind`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Kinds {
@@ -56,6 +103,14 @@ pub struct Kinds {
     pub overlapping: usize,
     /// Pairs that only touch.
     pub touching: usize,
+}
+
+impl std::ops::AddAssign for Kinds {
+    fn add_assign(&mut self, more: Self) {
+        self.crossing += more.crossing;
+        self.overlapping += more.overlapping;
+        self.touching += more.touching;
+    }
 }
 
 impl Kinds {
@@ -143,6 +198,7 @@ impl<'a> Taker<'a> {
             distance: None,
             pairs: Vec::new(),
             gaps: Vec::new(),
+            adjacent: None,
             left_out: baseline.map(|_| 0),
             only_touching: None,
             degenerate: 0,
@@ -255,6 +311,21 @@ impl<'a> Taker<'a> {
         // The search stops here, so the number of left-out pairs is unknown.
         found.left_out = None;
         ControlFlow::Break(Stop::First)
+    }
+
+    /// Ends the search for pairs that share a vertex, of which `twice` triangles stand twice.
+    pub(crate) fn end_adjacent(self, twice: usize) -> Adjacent {
+        let found = self.end();
+        Adjacent {
+            count: found.count,
+            kinds: found.kinds.unwrap_or_default(),
+            twice,
+            smallest: found.smallest,
+            pairs: found.pairs,
+            left_out: found.left_out,
+            only_touching: found.only_touching,
+            degenerate: found.degenerate,
+        }
     }
 
     /// Notes the number of pairs that are not shown, since their places only touch.

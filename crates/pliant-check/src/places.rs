@@ -16,7 +16,7 @@ use std::collections::{BTreeSet, HashMap};
 pub struct Place {
     /// Number of the place, from 0; the same in every frame of its life.
     pub number: usize,
-    /// Number of pairs.
+    /// Number of pairs, those that share a vertex too.
     pub count: usize,
     /// The smallest pair.
     pub first_pair: Row,

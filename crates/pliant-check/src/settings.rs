@@ -19,7 +19,7 @@ pub struct Settings {
     ///
     /// Each surface then stays on one closed side of the other: along a cut, or where parts lie on
     /// each other. Kept are places where surfaces cross, or pass through each other at edges and
-    /// vertices.
+    /// vertices. Of pairs that share a vertex, those that only touch are left out.
     ///
     /// A place is also kept where sides are not clear:
     ///
@@ -30,6 +30,12 @@ pub struct Settings {
     /// Places are formed of all pairs of bodies that may meet, including pairs that are left out
     /// for another reason. Not with [`within`](Self::within).
     pub crossing: bool,
+    /// Leaves out pairs of one source that share a vertex and meet beyond it:
+    /// [`Found::adjacent`](crate::Found).
+    ///
+    /// Otherwise they are found wherever a source meets itself, as one body or between its groups
+    /// or pieces, but not with [`within`](Self::within).
+    pub ignore_adjacent: bool,
     /// Lists the closest points of each pair within the distance, in [`Found::gaps`](crate::Found).
     ///
     /// Only where pairs of [`within`](Self::within) are listed. A pair then takes 88 bytes of
@@ -144,6 +150,7 @@ impl Default for Settings {
             within: None,
             swept: false,
             crossing: false,
+            ignore_adjacent: false,
             closest_points: false,
             first: false,
             listed: true,

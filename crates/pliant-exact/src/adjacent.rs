@@ -23,8 +23,8 @@ use super::triangles::{plane_signs, triangles_intersect};
 ///   without area touch, if they go on along the line of the edge beyond the same end.
 /// - **Three**: the triangle is there twice; overlapping, always.
 ///
-/// A degenerate triangle is the segment or point that it is. As exact as
-/// [`intersect`](crate::intersect).
+/// A degenerate triangle is the segment or point that it is. Adds one to `exact` if floating point
+/// alone did not decide. As exact as [`intersect`](crate::intersect).
 ///
 /// ```
 /// use pliant_exact::{ContactKind, Precision, adjacent_contact};
@@ -32,7 +32,8 @@ use super::triangles::{plane_signs, triangles_intersect};
 /// // Two triangles with corner 0 in common; the second is turned about an axis through it.
 /// let fixed = [[0.0; 3], [4.0, -1.0, 0.0], [4.0, 1.0, 0.0]];
 /// let turned = |x: f64| [[0.0; 3], [x, 0.0, -1.0], [x, 0.0, 1.0]];
-/// let meet = |x| adjacent_contact(Precision::Double, [[0, 1, 2], [0, 3, 4]], &fixed, &turned(x));
+/// let numbers = [[0, 1, 2], [0, 3, 4]];
+/// let meet = |x| adjacent_contact(Precision::Double, numbers, &fixed, &turned(x), &mut 0);
 /// assert_eq!(meet(4.0), Some(ContactKind::Crossing));
 /// assert_eq!(meet(-4.0), None);
 /// ```
@@ -41,11 +42,16 @@ pub fn adjacent_contact(
     numbers: [[u32; 3]; 2],
     a: &Triangle,
     b: &Triangle,
+    exact: &mut u64,
 ) -> Option<ContactKind> {
-    match on_lattice(a, b) {
-        Some([a, b]) => beyond_common(numbers, [&a, &b], &mut Lattice),
-        None => beyond_common(numbers, [a, b], &mut Filtered::new(precision)),
+    if let Some([a, b]) = on_lattice(a, b) {
+        *exact += 1;
+        return beyond_common(numbers, [&a, &b], &mut Lattice);
     }
+    let mut filtered = Filtered::new(precision);
+    let contact = beyond_common(numbers, [a, b], &mut filtered);
+    *exact += u64::from(filtered.was_uncertain());
+    contact
 }
 
 /// How two triangles meet beyond the hull of the corners that they have in common; none if they do
@@ -61,7 +67,7 @@ pub fn adjacent_contact(
 ///
 /// A triangle that has a corner twice is the segment or point that it is; of its numbers each
 /// counts once. If all of them are the other's too, K is H.
-fn beyond_common(
+pub(super) fn beyond_common(
     numbers: [[u32; 3]; 2],
     [a, b]: [&Triangle; 2],
     orientation: &mut impl Orientation,
@@ -291,7 +297,8 @@ mod tests {
             // The same, far from the lattice of the quick way.
             let tiny = 0.5_f64.powi(600);
             let [a, b] = [&a, &b].map(|triangle| triangle.map(|at| at.map(|x| tiny * x)));
-            assert_eq!(found, adjacent_contact(Precision::Double, numbers, &a, &b));
+            let precision = Precision::Double;
+            assert_eq!(found, adjacent_contact(precision, numbers, &a, &b, &mut 0));
             let common = numbers[0].iter().collect::<std::collections::BTreeSet<_>>();
             let common = common
                 .into_iter()

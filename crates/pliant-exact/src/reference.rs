@@ -14,3 +14,9 @@ pub fn intersect(a: &Triangle, b: &Triangle) -> bool {
 pub fn contact_kind(a: &Triangle, b: &Triangle) -> ContactKind {
     super::contact_kind::contact_kind(a, b, &mut Exact)
 }
+
+/// How two triangles of one mesh meet beyond the corners that they have in common, if they do, in
+/// exact arithmetic. Some microseconds.
+pub fn adjacent_contact(numbers: [[u32; 3]; 2], a: &Triangle, b: &Triangle) -> Option<ContactKind> {
+    super::adjacent::beyond_common(numbers, [a, b], &mut Exact)
+}

@@ -55,7 +55,7 @@ fn any_numbers_are_answered() {
                 [[0, 1, 2], [0, 1, 3]],
                 [[0, 0, 1], [1, 2, 3]],
             ] {
-                adjacent_contact(precision, numbers, &a, &b);
+                adjacent_contact(precision, numbers, &a, &b, &mut 0);
             }
             are_triangles_within(precision, &a, &b, distance);
             let known = SomePoints {

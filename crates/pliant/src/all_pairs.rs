@@ -37,6 +37,26 @@ pub(crate) fn triangles_that<S: Real, T>(
     Ok(pairs)
 }
 
+/// Pairs of triangles of a body that share a vertex, the smaller triangle first, for which `find`
+/// finds something, with what it found. `find` gets the vertices and the corners of both.
+pub(crate) fn adjacent_triangles<S: Real, T>(
+    (triangles, positions): Mesh<S>,
+    find: impl Fn([[u32; 3]; 2], &Triangle, &Triangle) -> Option<T>,
+) -> Result<Vec<([u32; 2], T)>, Error> {
+    let corners = corners(triangles, positions)?;
+    let mut pairs = Vec::new();
+    for i in 0..triangles.len() {
+        for j in i + 1..triangles.len() {
+            let both = [triangles[i], triangles[j]];
+            if share_a_vertex(both[0], both[1]) {
+                let found = find(both, &corners[i], &corners[j]);
+                pairs.extend(found.map(|found| ([i as u32, j as u32], found)));
+            }
+        }
+    }
+    Ok(pairs)
+}
+
 /// The pairs without what was found of each.
 pub(crate) fn without<T>(pairs: Vec<([u32; 2], T)>) -> Vec<[u32; 2]> {
     pairs.into_iter().map(|(pair, _)| pair).collect()

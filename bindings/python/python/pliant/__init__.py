@@ -45,6 +45,7 @@ from ._pliant import (
     vertex_triangle_impacts,
 )
 from ._types import (
+    Adjacent,
     Body,
     BodyThere,
     Changed,
@@ -77,6 +78,7 @@ from ._types import (
 )
 
 __all__ = [
+    "Adjacent",
     "Body",
     "BodyThere",
     "Changed",

@@ -216,6 +216,10 @@ class World:
         self, of: Selection = ..., *, only: ContactKind | int | None = None,
     ) -> ContactQuery:
         """Asks which triangles intersect, and how: a ContactQuery, all() of which is a Contacts."""
+    def adjacent_intersections(
+        self, of: Selection = ..., *, only: ContactKind | int | None = None,
+    ) -> ContactQuery:
+        """Asks which triangles that share a vertex meet beyond it, and how: a ContactQuery."""
     def vertex_triangle_candidates(self, of: Selection, radius: float) -> Query[VertexTriangle]:
         """Asks which vertices are near which triangles: a Query of rows (k, 4) uint32."""
     def edge_edge_candidates(self, of: Selection, radius: float) -> Query[EdgeEdge]:
@@ -383,6 +387,7 @@ def check(
     itself: bool = False,
     within: float | None = None,
     crossing: bool = False,
+    ignore_adjacent: bool = False,
     swept: bool = False,
     first: bool = False,
     weld: bool = True,

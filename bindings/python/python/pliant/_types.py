@@ -440,6 +440,26 @@ class Kinds(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
+class Adjacent:
+    """Pairs of a frame that share a vertex and meet beyond it: see Frame.adjacent."""
+
+    count: int
+    """Number of pairs."""
+    pairs: NDArray[np.uint32]
+    """(count, 4), sorted: body, triangle, body, triangle."""
+    kinds: Kinds
+    """Number of pairs of each kind: see World.adjacent_intersections."""
+    twice: int
+    """Triangles that stand twice: an earlier one has the same three vertices."""
+    left_out: int | None
+    """Pairs left out because the baseline has them, as Frame.left_out."""
+    only_touching: int | None
+    """Pairs left out because they only touch; None without crossing=True."""
+    degenerate: int
+    """Pairs with a triangle without area: found, or left out with skip_degenerate=True."""
+
+
+@dataclass(frozen=True, eq=False)
 class Frame:
     """A frame that pliant.check has checked."""
 
@@ -450,6 +470,10 @@ class Frame:
     pairs: NDArray[np.uint32]
     """(count, 4), sorted: body, triangle, body, triangle. With first=True one pair; with within=
     too, the nearest."""
+    adjacent: Adjacent | None
+    """Pairs that share a vertex and meet beyond it, which are not in count. None where they are not
+    asked for: between different files, with within= or ignore_adjacent=True, and where first=True
+    has found another pair."""
     kinds: Kinds | None
     """Number of pairs of each kind; None with first=True or within=."""
     distance: float | None
@@ -499,7 +523,7 @@ class OpenMesh(Protocol):
 _PUBLIC = (
     *(Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Contact, ContactKind, Contacts),
     *(Changed, Edited, Fused, Piece, Impact, Impacts, FreeStep, TreeBoxes, TreeShape, Statistics),
-    *(Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Frame, Mesh, OpenMesh),
+    *(Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Adjacent, Frame, Mesh, OpenMesh),
 )
 for _public in _PUBLIC:
     _public.__module__ = "pliant"

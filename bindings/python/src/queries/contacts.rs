@@ -1,10 +1,12 @@
 //! `ContactQuery`: which triangles intersect, and how, with numbers in arrays side by side.
+//!
+//! It also asks about triangles that share a vertex, whose hits are of the same form.
 
 use crate::answers::{Any, Column, Rows, class};
 use crate::arrays::expected;
 use crate::error::Result;
 use crate::queries::{Hit, Kind, Want, Wanted, query_class};
-use pliant::{Contact, ContactKind, Scalar};
+use pliant::{AdjacentContact, Contact, ContactKind, Scalar};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -34,9 +36,11 @@ impl<'py> FromPyObject<'_, 'py> for Only {
     }
 }
 
-/// Question which triangles intersect, perhaps of one kind alone.
+/// Question which triangles intersect, or meet beyond a vertex that they share, perhaps of one kind
+/// alone.
 #[derive(Clone, Copy)]
 pub(crate) struct Contacts {
+    pub(crate) adjacent: bool,
     pub(crate) only: Option<Only>,
 }
 
@@ -47,6 +51,13 @@ impl Kind for Contacts {
         of: pliant::Selection,
         wanted: Wanted<'w, W>,
     ) -> Result<W::Answer> {
+        if self.adjacent {
+            let query = world.adjacent_intersections(of);
+            return wanted.of(match self.only {
+                Some(Only(kind)) => query.only(kind),
+                None => query,
+            });
+        }
         let query = world.contacts(of);
         wanted.of(match self.only {
             Some(Only(kind)) => query.only(kind),
@@ -56,7 +67,8 @@ impl Kind for Contacts {
 
     fn said(self) -> String {
         let only = self.only.map(|Only(kind)| format!(", only {kind:?}"));
-        only.unwrap_or_default()
+        let adjacent = if self.adjacent { ", adjacent" } else { "" };
+        format!("{adjacent}{}", only.unwrap_or_default())
     }
 }
 
@@ -78,12 +90,31 @@ impl Hit for Contact {
     }
 }
 
+/// As contacts: the pair, and how it meets beyond what it shares.
+impl Hit for AdjacentContact {
+    type Columns = <Contact as Hit>::Columns;
+
+    fn columns(hits: &[Self]) -> Self::Columns {
+        let row = |hit: &Self| (<[u32; 4]>::from(hit.pair), hit.kind as u8);
+        hits.iter().map(row).collect()
+    }
+
+    fn many(columns: Self::Columns, py: Python<'_>) -> PyResult<Any<'_>> {
+        Contact::many(columns, py)
+    }
+
+    fn one(self, py: Python<'_>) -> PyResult<Any<'_>> {
+        let Self { pair, kind } = self;
+        Contact { pair, kind }.one(py)
+    }
+}
+
 query_class! {
     /// A question which triangles intersect and how, answered by all() or first().
     ///
-    /// World.contacts makes it. Ask for all(), the first(), or visit_some(...). Each call asks
-    /// anew, about the shapes that the bodies have then. A call raises the errors and exceptions of
-    /// Query.
+    /// World.contacts makes it, and World.adjacent_intersections. Ask for all(), the first(), or
+    /// visit_some(...). Each call asks anew, about the shapes that the bodies have then. A call
+    /// raises the errors and exceptions of Query.
     ContactQuery of Contacts;
 
     /// All contacts, a Contacts of arrays, sorted by their numbers.

@@ -290,7 +290,7 @@ fn numbers(found: &[Found]) -> Vec<Vec<usize>> {
     let of_frame = |found: &Found| {
         let places = found.places.as_ref().unwrap();
         let pairs: usize = places.iter().map(|place| place.count).sum();
-        assert_eq!(pairs, found.count);
+        assert_eq!(pairs, found.count_of_all());
         places.iter().map(|place| place.number).collect()
     };
     found.iter().map(of_frame).collect()
@@ -422,7 +422,7 @@ fn places_of_real_meshes_do_not_depend_on_threads() {
             let places = found.places.as_ref().unwrap();
             assert!(!places.is_empty());
             let pairs: usize = places.iter().map(|place| place.count).sum();
-            assert_eq!(pairs, found.count);
+            assert_eq!(pairs, found.count_of_all());
         }
     }
 }

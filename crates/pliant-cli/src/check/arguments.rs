@@ -43,6 +43,11 @@ pub(crate) struct Arguments {
     /// clear what a side is, a place stays. Not with --within
     #[arg(long, conflicts_with = "within")]
     pub(super) crossing: bool,
+    /// Leave out triangles of one body that share a vertex and meet beyond it. They go through each
+    /// other elsewhere, lie folded onto each other, or are one triangle twice. They are counted
+    /// apart, wherever a body is checked against itself, or groups of one file against each other
+    #[arg(long)]
+    pub(super) ignore_adjacent: bool,
     /// Only these frames: 100..200 are 100 to 199; 100.. and ..200 are open; 100 is one;
     /// 100..200:10 is every tenth. With --swept, each way then leads ten frames on
     #[arg(
@@ -154,6 +159,7 @@ Examples:
   pliant check new.ply --baseline old.json           what an older check had not
   pliant check part.stl --weld 1e-6                  corners nearly coincide
   pliant check left.ply right.ply --crossing         not what only touches
+  pliant check part.stl --ignore-adjacent            only what shares no vertex
   pliant check walk.npz --report walk.html           a page: in motion, hits red
   pliant check walk.npz --png worst.png --frame 50   its largest place
   pliant check a.ply --png a.png --view top --size 800x600

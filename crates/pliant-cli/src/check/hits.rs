@@ -141,8 +141,8 @@ impl Hits {
 impl Mesh {
     fn of(check: &Check, found: &Found) -> Self {
         let mut mesh = Self::default();
-        let ends = found
-            .pairs
+        let pairs = found.all_pairs();
+        let ends = pairs
             .iter()
             .flat_map(|&[body_a, a, body_b, b]| [[body_a, a], [body_b, b]]);
         let mut ends: Vec<[u32; 2]> = ends.collect();

@@ -1,5 +1,6 @@
 //! `pliant check`: checks meshes and sequences frame by frame.
 
+mod adjacent;
 mod arguments;
 mod figures;
 mod hits;
@@ -19,7 +20,7 @@ use hits::Hits;
 use output::Output;
 use pictures::Pictures;
 use pliant::Options;
-use pliant_check::{Check, Error, Settings};
+use pliant_check::{Baseline, Check, Error, Settings};
 use pliant_io::{OpenOptions, shown};
 
 /// Checks all frames and prints what intersects.
@@ -39,6 +40,15 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
     })?;
     for source in check.sources() {
         note(source, arguments.quiet);
+    }
+    if let (Some(Baseline::File(file)), true, false) =
+        (&arguments.baseline, check.lacks_adjacent(), arguments.quiet)
+    {
+        complain(&format!(
+            "note: {} has no pairs that share a vertex, so all of these count as new; \
+             write it again, or leave them out with `--ignore-adjacent`",
+            shown(file)
+        ));
     }
     let over = arguments.pictures.over;
     let hits = arguments.hits.as_deref();
@@ -106,6 +116,7 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
         itself: arguments.itself,
         within: arguments.within,
         crossing: arguments.crossing,
+        ignore_adjacent: arguments.ignore_adjacent,
         swept: arguments.swept,
         closest_points: arguments.pictures.any(),
         max_list: arguments.max_memory,

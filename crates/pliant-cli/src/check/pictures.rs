@@ -3,6 +3,7 @@
 //! In a picture the bodies are the sources, and triangles have their own numbers. A page also tells
 //! pieces and groups of a source apart. Both show groups that were not asked for.
 
+use super::adjacent::AdjacentTally;
 use super::arguments::{Arguments, Split};
 use super::figures::short;
 use super::moments;
@@ -24,6 +25,7 @@ vertex (as a cross), the edges or the triangle that meet drawn over everything."
 pub(super) struct Pictures {
     watcher: Watcher,
     way: Way,
+    adjacent: AdjacentTally,
 }
 
 /// Totals over all intervals between frames.
@@ -69,6 +71,7 @@ impl Pictures {
         Watcher::new(&arguments.pictures, || labels(check), "frame", numbers).map(|watcher| Self {
             watcher: watcher.within(arguments.within),
             way: Way::default(),
+            adjacent: AdjacentTally::default(),
         })
     }
 
@@ -80,11 +83,12 @@ impl Pictures {
     /// Records the frame that was checked last.
     pub(super) fn frame(&mut self, check: &Check, found: &Found) -> anyhow::Result<()> {
         let number = found.frame as u32;
+        self.adjacent.count(found);
         if !self.watcher.looks_at(number) {
             return Ok(());
         }
         let pairs: Vec<Row> = found
-            .pairs
+            .all_pairs()
             .iter()
             .map(|&row| of_sources(check, row))
             .collect();
@@ -143,7 +147,11 @@ impl Pictures {
         check: &Check,
         checked: &anyhow::Result<()>,
     ) -> anyhow::Result<()> {
-        let Self { mut watcher, way } = self;
+        let Self {
+            mut watcher,
+            way,
+            adjacent,
+        } = self;
         if arguments.swept {
             watcher.also_found(way.found());
         }
@@ -177,6 +185,13 @@ impl Pictures {
             if let Some(bodies) = bodies {
                 play.facts
                     .push(fact(bodies, check.body_count().to_string()));
+            }
+            if let Some(adjacent) = adjacent.said() {
+                play.notes.push(format!("{adjacent}."));
+            }
+            if arguments.ignore_adjacent {
+                play.notes
+                    .push("Triangles that share a vertex are left out.".to_owned());
             }
             match &arguments.baseline {
                 None => {}

@@ -53,7 +53,8 @@ fn one_when_something_intersects() {
     assert_eq!((itself.code, itself.err.as_str()), (1, ""));
     let bodies = json!([{"name": "a.obj", "vertices": 6, "triangles": 2}]);
     let frames = json!([
-        {"frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [[0, 0, 0, 1]]}
+        {"frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [[0, 0, 0, 1]],
+            "adjacent": 0, "adjacent_pairs": []}
     ]);
     assert_eq!(
         itself.json_without_places(),
@@ -136,7 +137,7 @@ fn the_table_separates_thousands_in_counts_and_not_in_numbers_of_triangles() {
     );
     assert_eq!(
         lines[4],
-        "       0     1,225  triangle 1000 of body 0, triangle 1001 of body 0"
+        "       0     1,225         0  triangle 1000 of body 0, triangle 1001 of body 0"
     );
     assert_eq!(lines[6], "1 place:");
     assert_eq!(
@@ -320,14 +321,14 @@ fn the_table_names_the_file_of_each_frame() {
         rows.map(String::from).collect::<Vec<_>>()
     };
     let of_numbers = [
-        "   frame  file        pairs  first pair",
-        "       0  7.obj           1  triangle 0 of body 0, triangle 1 of body 0",
-        "       1  227.obj         0",
+        "   frame  file        pairs  adjacent  first pair",
+        "       0  7.obj           1         0  triangle 0 of body 0, triangle 1 of body 0",
+        "       1  227.obj         0         0",
     ];
     assert_eq!(rows(&["[0-9]*.obj"]), of_numbers);
     assert_eq!(
         rows(&["[0-9]*.obj", "--count"]),
-        of_numbers.map(|row| row.get(..27).unwrap_or(row))
+        of_numbers.map(|row| row.get(..37).unwrap_or(row))
     );
     // The common folder is named in the line of the body.
     let whole = path.join("[0-9]*.obj");

@@ -2,6 +2,7 @@
 //!
 //! One file: `cargo test -p pliant-cli --test all bench::`.
 
+mod adjacent;
 mod bench;
 mod check;
 mod common;

@@ -189,22 +189,29 @@ fn stacks(offsets: &[f32]) -> TempDir {
 #[test]
 fn solids_that_touch_may_go_apart() {
     let folder = stacks(&[0.0, 0.5, 1.0]);
+    // Where they touch, two triangles of each stand twice.
     let said = check(folder.path(), &["stack_*.stl"]);
-    assert_eq!(said.code, 0, "{}", said.err);
+    assert!(said.out.contains("2 triangles stand twice"), "{}", said.out);
+    assert_eq!(said.code, 1, "{}", said.err);
+    let apart = check(folder.path(), &["stack_*.stl", "--ignore-adjacent"]);
+    assert_eq!(apart.code, 0, "{}", apart.err);
     let words = "seams that are closed in the first frame are open in 2 frames, 1 to 2, and widest \
                  in frame 2: 4 vertices part there, ";
     assert!(note(&said).contains(words), "{}", said.err);
     // Pieces and groups of the first frame stay, and are no reason to stop.
     for (split, bodies) in [("components", 1), ("groups", 2)] {
         let arguments = ["stack_*.stl", "--split", split, "--format", "json"];
-        let said = check(folder.path(), &arguments);
+        let said = check(
+            folder.path(),
+            &[&arguments[..], &["--ignore-adjacent"]].concat(),
+        );
         assert_eq!((said.code, said.counts()), (0, vec![0; 3]), "{}", said.err);
         assert_eq!(said.json()["bodies"].as_array().unwrap().len(), bodies);
     }
     // The other way round: cubes that touch are one solid alone.
     let folder = stacks(&[1.0, 0.5, 0.0]);
-    let alone = check(folder.path(), &["stack_2.stl"]);
-    let said = check(folder.path(), &["stack_*.stl"]);
+    let alone = check(folder.path(), &["stack_2.stl", "--ignore-adjacent"]);
+    let said = check(folder.path(), &["stack_*.stl", "--ignore-adjacent"]);
     assert_eq!((alone.code, said.code, said.err.as_str()), (0, 0, ""));
 }
 
@@ -305,6 +312,6 @@ fn what_is_converted_has_one_mesh() {
         &["convert", "stack_*.stl", "a.npz", "--no-weld"],
     );
     assert_eq!(said.code, 0, "{}", said.err);
-    let said = check(folder.path(), &["a.npz"]);
+    let said = check(folder.path(), &["a.npz", "--ignore-adjacent"]);
     assert_eq!(said.code, 0, "{}", said.err);
 }

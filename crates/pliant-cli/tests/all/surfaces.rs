@@ -642,7 +642,8 @@ fn groups_of_an_obj_file_are_bodies() {
     };
     let frame = |pair: [u32; 4]| {
         json!({
-            "frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [pair]
+            "frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [pair],
+            "adjacent": 0, "adjacent_pairs": []
         })
     };
     let whole = json(&["scan.obj"]);
@@ -675,7 +676,8 @@ fn groups_of_an_obj_file_are_bodies() {
         named,
         json!({
             "format": 1, "bodies": bodies, "triangle_numbers": "source", "sources": whole["bodies"],
-            "frames": [{"frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [[0, 2, 1, 0]]}]
+            "frames": [{"frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [[0, 2, 1, 0]],
+                "adjacent": 0, "adjacent_pairs": []}]
         })
     );
     // Their common edge is no hit, and nothing else is left.

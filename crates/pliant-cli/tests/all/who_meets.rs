@@ -55,7 +55,8 @@ fn pieces_of_a_file_are_bodies() {
     // Triangles are numbered as in the file: the sheet is triangle 1 of its piece's source.
     let frames = json!([{
         "frame": 0, "count": 3, "kinds": kinds([3, 0, 0]),
-        "pairs": [[0, 0, 1, 1], [0, 2, 1, 1], [1, 1, 3, 0]]
+        "pairs": [[0, 0, 1, 1], [0, 2, 1, 1], [1, 1, 3, 0]],
+        "adjacent": 0, "adjacent_pairs": []
     }]);
     assert_eq!(
         said,
@@ -386,8 +387,10 @@ fn with_itself_too() {
     let folder = folder(&files);
     let frames = json(folder.path(), &["*.obj", "--baseline", "0"])["frames"].clone();
     let expected = json!([
-        {"frame": 0, "count": 0, "left_out": 1, "pairs": []},
-        {"frame": 1, "count": 1, "kinds": kinds([1, 0, 0]), "left_out": 1, "pairs": [[0, 1, 0, 2]]},
+        {"frame": 0, "count": 0, "left_out": 1, "pairs": [], "adjacent": 0, "adjacent_pairs": [],
+            "adjacent_left_out": 0},
+        {"frame": 1, "count": 1, "kinds": kinds([1, 0, 0]), "left_out": 1, "pairs": [[0, 1, 0, 2]],
+            "adjacent": 0, "adjacent_pairs": [], "adjacent_left_out": 0},
     ]);
     assert_eq!(frames, expected);
 }

@@ -22,7 +22,7 @@ use crate::ids::{BodyId, TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{Changed, EMPTY, Order, Topology};
 use crate::options::Options;
-use crate::queries::{BodyBoxes, Needs, Reach, Which};
+use crate::queries::{BodyBoxes, Needs, Reach, StarredBody, Which};
 use crate::threads::Executor;
 use crate::traversal::{Read, Side};
 use crate::tree::{BoxSet, Grown, Tree};
@@ -367,6 +367,26 @@ impl<S: Coordinate> Body<S> {
     pub(crate) fn know_neighbours(&mut self, part: usize, executor: Executor) {
         let part = self.parts.one_mut(part);
         part.know_neighbours(self.mesh.order(), executor);
+    }
+
+    /// The body as the search for adjacent contacts reads it: stars are found, and the shape is
+    /// brought into tree order. None if interrupted.
+    pub(crate) fn starred(
+        &mut self,
+        (instructions, executor): (Instructions, Executor),
+    ) -> Option<StarredBody<'_, S>> {
+        if !self.bring_into_tree_order(None, instructions, executor) {
+            return None;
+        }
+        let mesh = &self.mesh;
+        let stars = mesh.stars(&|| executor.is_interrupted())?;
+        Some(StarredBody {
+            body: mesh.body(),
+            shape: self.shape.view(mesh.order(), Origin::default()),
+            order: mesh.order(),
+            removed: mesh.removed(),
+            stars,
+        })
     }
 
     /// Makes the boxes of elements, unless they hold the present shape and motion. Returns false if

@@ -7,7 +7,7 @@ use crate::geometry::Points;
 use crate::held::{self, held};
 use crate::ids::{BodyId, TreeTriangle, TreeVertex};
 use crate::kernels::Coordinate;
-use crate::mesh::{Bits, EMPTY, Elements, Order, Topology, TrianglesAt};
+use crate::mesh::{Bits, EMPTY, Elements, Order, Stars, Topology, TrianglesAt};
 use crate::queries::Removed;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -23,6 +23,8 @@ pub(crate) struct BodyMesh<S> {
     elements: OnceLock<Box<Elements>>,
     /// Whether edges were asked for before the tree was exchanged or the body was copied.
     edges_were_known: bool,
+    /// Stars of vertices. Made when first needed.
+    stars: OnceLock<Box<Stars>>,
     /// Lists that edits need. Present once the mesh was edited.
     edits: Option<Box<Edits<S>>>,
     /// Version of the mesh: counts its changes.
@@ -91,6 +93,7 @@ impl<S: Coordinate> BodyMesh<S> {
             order,
             elements: OnceLock::new(),
             edges_were_known: false,
+            stars: OnceLock::new(),
             edits: None,
             version: 0,
             order_version: 0,
@@ -111,6 +114,7 @@ impl<S: Coordinate> BodyMesh<S> {
             order: self.order.clone(),
             elements: known.map_or_else(OnceLock::new, |known| OnceLock::from(known.clone())),
             edges_were_known: self.edges_are_known(),
+            stars: OnceLock::new(),
             edits: self.edits.clone(),
             ..*self
         }
@@ -283,6 +287,15 @@ impl<S: Coordinate> BodyMesh<S> {
         })
     }
 
+    /// Stars of all vertices. Computed the first time; none if `stop` interrupts that.
+    pub(crate) fn stars(&self, stop: &dyn Fn() -> bool) -> Option<&Stars> {
+        let known = self.stars.get().map(Box::as_ref);
+        known.or_else(|| {
+            let new = Stars::new(self.triangles(), self.vertex_count(), stop)?;
+            Some(self.stars.get_or_init(|| Box::new(new)))
+        })
+    }
+
     /// A new shape from positions, in which empty vertices are put where another vertex is.
     pub(crate) fn new_shape<'n>(&'n mut self, positions: &'n [[S; 3]]) -> NewShape<'n, S> {
         let empty = self.empty_count();
@@ -321,5 +334,7 @@ held!(Edits<S>: places[], slots[], at, gone, empty, patched[]; |edits| {
         + edits.without_orphans.get().map_or(0, held::list)
 });
 held!(BodyMesh<S>: topology, order; |mesh| {
-    held::boxes(mesh.elements.get()) + held::boxes(&mesh.edits)
+    held::boxes(mesh.elements.get())
+        + held::boxes(mesh.stars.get())
+        + held::boxes(&mesh.edits)
 });

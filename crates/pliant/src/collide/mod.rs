@@ -8,8 +8,10 @@
 //! - `witness`: the last first pair, tested before anything else.
 //! - `close`, `distance`: close pairs measured; the distance of bodies.
 //! - `impacts`: the first contact of a motion, and how far everything may move.
+//! - `adjacent`: triangles with a vertex in common, body by body.
 //! - `origin`: the point that boxes are relative to.
 
+mod adjacent;
 mod answer;
 mod asked;
 mod body_pairs;
@@ -22,6 +24,7 @@ mod step;
 mod together;
 mod witness;
 
+pub(crate) use adjacent::AskedAdjacent;
 pub(crate) use asked::{Asked, Common};
 pub(crate) use body_pairs::BodyPairs;
 pub(crate) use close::InBodies;

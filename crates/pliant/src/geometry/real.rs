@@ -6,7 +6,7 @@
 //! origin of the world: far from zero an `f32` has no digits left.
 
 use pliant_exact::Precision;
-use std::ops::{Add, Mul};
+use std::ops::{Add, Mul, Sub};
 
 /// Coordinate scalar, `f32` or `f64`: operations on one number. For registers see
 /// `kernels::Coordinate`.
@@ -14,6 +14,7 @@ pub(crate) trait Real:
     Copy
     + PartialOrd
     + Add<Output = Self>
+    + Sub<Output = Self>
     + Mul<Output = Self>
     + std::fmt::Debug
     + Default
@@ -36,7 +37,14 @@ pub(crate) trait Real:
     const LEAST: f64;
     /// Smallest positive coordinate with which arithmetic needs no subnormal numbers.
     const NEEDS_NONE: Self;
+    const ONE: Self;
+    /// Five roundings: half of the spacing of numbers at 1, five times.
+    const FIVE_ROUNDINGS: Self;
+    /// The smallest positive normal number, times 64.
+    const TINY: Self;
 
+    /// Absolute value.
+    fn magnitude(self) -> Self;
     /// Converts to `f64`; exact.
     fn to_f64(self) -> f64;
     /// Rounds to the nearest value of this type.
@@ -86,6 +94,14 @@ macro_rules! in_both {
         const NAN: Self = <$type>::NAN;
         const INFINITY: Self = <$type>::INFINITY;
         const NEG_INFINITY: Self = <$type>::NEG_INFINITY;
+        const ONE: Self = 1.0;
+        const FIVE_ROUNDINGS: Self = 5.0 * <$type>::EPSILON / 2.0;
+        const TINY: Self = 64.0 * <$type>::MIN_POSITIVE;
+
+        #[inline]
+        fn magnitude(self) -> Self {
+            self.abs()
+        }
 
         #[inline]
         fn to_f64(self) -> f64 {

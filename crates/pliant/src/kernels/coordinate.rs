@@ -30,6 +30,9 @@ pub(crate) trait Coordinate: Real {
         Self::Four::load_array_ref(i, four)
     }
 
+    /// Eight points as lanes: all x, all y, all z.
+    fn in_lanes<I: Simd>(i: I, points: [&[Self; 4]; 8]) -> Vector<[Self; 8]>;
+
     /// The corners of a box in `f32`, relative to the origin and rounded outward.
     #[inline(always)]
     fn outward<I: Simd>(
@@ -135,6 +138,19 @@ impl Coordinate for f32 {
     type Four<I: Simd> = f32x4<I>;
 
     #[inline(always)]
+    fn in_lanes<I: Simd>(i: I, points: [&[Self; 4]; 8]) -> Vector<[Self; 8]> {
+        let mut eight = [f32x4::splat(i, 0.0); 8];
+        for lane in 0..8 {
+            eight[lane] = f32x4::load_array_ref(i, points[lane]);
+        }
+        let mut lanes = [[0.0; 8]; 3];
+        for (row, of_axis) in lanes_of(eight).iter().zip(&mut lanes) {
+            row.store_array(of_axis);
+        }
+        lanes
+    }
+
+    #[inline(always)]
     fn rounded<I: Simd>(two: [f32x4<I>; 2]) -> [f32x4<I>; 2] {
         two
     }
@@ -173,6 +189,21 @@ impl Coordinate for f32 {
 
 impl Coordinate for f64 {
     type Four<I: Simd> = f64x4<I>;
+
+    #[inline(always)]
+    fn in_lanes<I: Simd>(i: I, points: [&[Self; 4]; 8]) -> Vector<[Self; 8]> {
+        let mut lanes = [[0.0; 8]; 3];
+        for half in 0..2 {
+            let mut four = [f64x4::splat(i, 0.0); 4];
+            for lane in 0..4 {
+                four[lane] = f64x4::load_array_ref(i, points[4 * half + lane]);
+            }
+            for (row, of_axis) in turn(four).iter().zip(&mut lanes) {
+                row.store_slice(&mut of_axis[4 * half..4 * half + 4]);
+            }
+        }
+        lanes
+    }
 
     #[inline(always)]
     fn rounded<I: Simd>([p, q]: [f64x4<I>; 2]) -> [f32x4<I>; 2] {

@@ -21,6 +21,7 @@
 //! | `gaps` | boxes of elements (vertices, edges, triangles), and which are near each other |
 //! | `ring` | the elements of one run, each with each other |
 //! | `buffer` | the set bits of a mask, appended to a list without branches |
+//! | `stars` | which way the triangles at each vertex face, and whether they go round it once |
 //! | `find` | search for a number among eight |
 //! | `ranks` | ranks of a few numbers: how many are smaller than each |
 //! | `coordinate` | points in registers, and transposed into lanes |
@@ -41,6 +42,7 @@ mod quantized;
 pub(crate) mod ranks;
 pub(crate) mod ring;
 pub(crate) mod signs;
+mod stars;
 mod vector;
 
 pub(crate) use boxes::{BoxLanes, EightBoxes, near_mask, overlap_mask};
@@ -53,3 +55,6 @@ pub(crate) use gather::gather;
 pub use instructions::Instructions;
 pub(crate) use instructions::{Set, dispatch, with_baseline};
 pub(crate) use quantized::{FARTHEST, QuantizedLanes, QuantizedRows, quantize};
+pub(crate) use stars::{
+    CLOSED, MOST_COUNTED, StarCounts, StarRecord, count_stars, mark_overlapping_stars,
+};

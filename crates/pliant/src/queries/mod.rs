@@ -8,10 +8,12 @@
 //! |---|---|---|
 //! | `intersections` | triangles that intersect, decided exactly | of the shape |
 //! | `contacts` | intersections with their kinds | of the shape |
+//! | `adjacent` | triangles that share a vertex and meet beyond it; no leaves | none |
 //! | `candidates` | vertices and triangles, or edges, within a margin | of the motion, grown |
 //! | `close` | elements or triangles within a distance, measured | of motion or shape, grown |
 //! | `impacts` | elements that meet during a motion, and when first | of the motion, grown |
 
+mod adjacent;
 mod candidates;
 mod close;
 mod contacts;
@@ -22,6 +24,7 @@ mod near;
 
 /// Hits of every kind, as callers get them. The crate exports them.
 pub(crate) mod hits {
+    pub use super::adjacent::AdjacentContact;
     pub use super::candidates::{EdgeEdge, VertexTriangle};
     pub use super::close::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, ClosestFeatures};
     pub use super::contacts::{Contact, ContactKind};
@@ -29,6 +32,7 @@ pub(crate) mod hits {
     pub use super::intersections::Pair;
 }
 
+pub(crate) use adjacent::{AdjacentSearch, StarredBody};
 pub(crate) use candidates::{Candidates, EdgeEdgeCandidates, Margin, VertexTriangleCandidates};
 pub(crate) use close::{
     Close, Measurable, NearTriangles, NearestPair, close, closest_of_triangles, corners_of,

@@ -38,6 +38,10 @@ impl Grain {
 
     /// Triangles of bodies that a query prepares, or that meet, if nothing more is known.
     pub(crate) const TRIANGLES: Self = Self::of(1_024, 10_000);
+    /// Triangles that are counted at their vertices, or vertices where they were.
+    pub(crate) const STARS: Self = Self::of(2_048, 12_000);
+    /// Vertices whose triangles are looked at one by one.
+    pub(crate) const STARS_LEFT: Self = Self::of(32, 6_000);
     /// Bodies, beside what is done with their triangles or points.
     pub(crate) const BODIES: Self = Self::of(1, 300);
     /// Bodies whose boxes are copied.

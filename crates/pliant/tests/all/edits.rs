@@ -4,7 +4,8 @@
 
 use crate::common::{Lcg, every_configuration, share, sheet};
 use pliant::{
-    BodyId, EdgeEdge, Edit, Edited, Options, Pair, Scalar, Selection, VertexTriangle, World,
+    AdjacentContact, BodyId, ContactKind, EdgeEdge, Edit, Edited, Options, Pair, Scalar, Selection,
+    VertexTriangle, World,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -118,6 +119,7 @@ impl Number for f64 {
 #[derive(Debug, Default, PartialEq)]
 struct Answers {
     intersections: BTreeSet<[u32; 4]>,
+    adjacent: BTreeSet<([u32; 4], ContactKind)>,
     vertex_triangle: BTreeSet<[u32; 4]>,
     edge_edge: BTreeSet<[u32; 6]>,
     close_vertex_triangle: BTreeSet<[u32; 4]>,
@@ -145,6 +147,7 @@ impl Answers {
         }
         compare!(
             intersections,
+            adjacent,
             vertex_triangle,
             edge_edge,
             close_vertex_triangle,
@@ -206,6 +209,10 @@ fn ask<S: Number>(
     if let Some(first) = first {
         assert!(answers.intersections.contains(&of_triangles(first.into())));
     }
+    let found = world.adjacent_intersections(of).all().unwrap();
+    assert!(found.is_sorted_by(|a, b| a < b));
+    let row = |it: &AdjacentContact| (of_triangles(it.pair.into()), it.kind);
+    answers.adjacent = found.iter().map(row).collect();
     let found = world.vertex_triangle_candidates(of, radius).all().unwrap();
     assert!(found.is_sorted_by(|a, b| a < b));
     answers.vertex_triangle = found.iter().map(|&pair| of_vertex(pair)).collect();

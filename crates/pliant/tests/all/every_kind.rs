@@ -21,12 +21,16 @@ const PART: f32 = 1.0 / 16.0;
 type Shapes<S> = Vec<Vec<[S; 3]>>;
 
 /// The shapes of a scene at some steps, and for each the shapes at the end of its motion.
+///
+/// Two neighbouring vertices of the first body have changed places, so triangles there are folded.
 fn steps<S>(scene: &Scene, steps: &[u32], of: fn(f32) -> S) -> Vec<[Shapes<S>; 2]> {
     let at = |step: u32| -> Shapes<f32> {
         let mut shapes = vec![Vec::new(); scene.body_count()];
         for (body, shape) in shapes.iter_mut().enumerate() {
             scene.positions(body, step, shape);
         }
+        let [a, b, _] = scene.triangles(0)[0].map(|vertex| vertex as usize);
+        shapes[0].swap(a, b);
         shapes
     };
     let all: Vec<_> = steps.iter().map(|&step| at(step)).collect();

@@ -20,7 +20,10 @@ const LAYERS: [(&str, &[&str]); 23] = [
     ("selection", &["ids"]),
     ("geometry", &["held", "ids"]),
     ("kernels", &["held", "ids", "geometry"]),
-    ("mesh", &["held", "ids", "error", "edit", "threads"]),
+    (
+        "mesh",
+        &["held", "ids", "error", "edit", "kernels", "threads"],
+    ),
     ("sort", &["held", "kernels", "threads"]),
     (
         "broad_phase",

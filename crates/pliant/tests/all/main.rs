@@ -9,6 +9,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod adjacent;
 mod boxes;
 mod boxes_of_levels;
 mod candidates;

@@ -39,7 +39,9 @@ impl Form for Github {
     }
 
     fn frame(&mut self, out: &mut dyn Write, check: &Check, found: &Found) -> io::Result<()> {
-        let Some(smallest) = found.smallest.filter(|_| found.places.is_none()) else {
+        let adjacent = found.adjacent.as_ref().and_then(|it| it.smallest);
+        let smallest = found.smallest.or(adjacent);
+        let Some(smallest) = smallest.filter(|_| found.places.is_none()) else {
             return Ok(());
         };
         if self.annotated == MOST_ANNOTATIONS {
@@ -56,7 +58,7 @@ impl Form for Github {
             format!("{pairs} of triangles at most {within} apart, the nearest {distance}")
         } else if found.complete {
             counted((
-                found.count,
+                found.count_of_all(),
                 "pair of triangles intersects",
                 "pairs of triangles intersect",
             ))
@@ -100,6 +102,9 @@ impl Form for Github {
             return out.write_all(failure(error).as_bytes());
         }
         write!(out, "pliant: {}", tally.summary())?;
+        if let Some(adjacent) = tally.adjacent.said() {
+            write!(out, "; {adjacent}")?;
+        }
         if count > 0 {
             write!(out, "; {}", counted((count, "place", "places")))?;
         }

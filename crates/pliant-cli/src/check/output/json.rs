@@ -18,14 +18,15 @@
 //! ```
 //!
 //! All numbers count from 0. A pair is body, triangle, body, triangle: the smaller (body, triangle)
-//! first, and pairs are sorted. If a frame cannot be checked, the object ends with `error`.
+//! first, and pairs are sorted. Pairs of triangles that share a vertex are counted apart, as
+//! `adjacent`. If a frame cannot be checked, the object ends with `error`.
 //!
 //! | member | meaning |
 //! |---|---|
 //! | `bodies` | each body: [`Entry`], or with `split` [`PieceEntry`] |
 //! | `sources` | files, or bodies of glTF files, where bodies are pieces or groups: [`Entry`] |
 //! | `split`, `ignore`, `baseline`, `within` | what was asked, if it was |
-//! | `crossing`, `swept`, `skip_degenerate` | what was asked, if it was |
+//! | `crossing`, `swept`, `skip_degenerate`, `ignore_adjacent` | what was asked, if it was |
 //! | `groups` | numbers of bodies by name of the group, if it was asked |
 //! | `frames` | [`FrameEntry`] each; with `swept` an [`IntervalEntry`] between two |
 //! | `places` | places over all frames: [`LifeEntry`]; absent with `--count` and `--first` |
@@ -35,7 +36,9 @@ use super::form::Form;
 use super::tally::Tally;
 use crate::check::arguments::{Arguments, Split};
 use crate::check::names::Names;
-use pliant_check::{Baseline, Check, FirstImpact, Found, Group, Impact, Interval, Life, Place};
+use pliant_check::{
+    Adjacent, Baseline, Check, FirstImpact, Found, Group, Impact, Interval, Kinds, Life, Place,
+};
 use pliant_io::Body as Source;
 use serde::Serialize;
 use serde_json::json;
@@ -49,6 +52,7 @@ pub(super) struct Json {
     ignore: Vec<Names>,
     baseline: Option<Baseline>,
     skip_degenerate: bool,
+    ignore_adjacent: bool,
     within: Option<f64>,
     crossing: bool,
     swept: bool,
@@ -161,8 +165,59 @@ struct FrameEntry<'a> {
     /// the nearest pair alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pairs: Option<&'a [[u32; 4]]>,
+    /// Number of pairs of triangles that share a vertex and meet beyond what they share. Absent
+    /// where they are not asked for: between different files, with `--within`, with
+    /// `--ignore-adjacent`, and where `--first` found another pair.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    adjacent: Option<usize>,
+    #[serde(flatten)]
+    of_adjacent: Option<AdjacentEntry<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     places: Option<Vec<PlaceEntry>>,
+}
+
+/// More about pairs that share a vertex, where there are any or some were left out.
+#[derive(Serialize)]
+struct AdjacentEntry<'a> {
+    /// As `pairs`; absent with `--count`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    adjacent_pairs: Option<&'a [[u32; 4]]>,
+    /// As `kinds`. A triangle that is there twice is `overlapping`. Absent without such pairs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    adjacent_kinds: Option<serde_json::Value>,
+    /// Number of triangles that stand twice: an earlier one has the same three vertices.
+    #[serde(skip_serializing_if = "is_zero")]
+    twice: usize,
+    /// Number of pairs left out by `--baseline`, as `left_out`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    adjacent_left_out: Option<usize>,
+    /// With `--crossing`, number of pairs left out because they only touch.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    adjacent_only_touching: Option<usize>,
+    /// As `degenerate`.
+    #[serde(skip_serializing_if = "is_zero")]
+    adjacent_degenerate: usize,
+}
+
+impl<'a> AdjacentEntry<'a> {
+    fn of(adjacent: &'a Adjacent, count_only: bool) -> Self {
+        Self {
+            adjacent_pairs: (!count_only).then_some(&adjacent.pairs),
+            adjacent_kinds: (adjacent.count > 0).then(|| kinds(adjacent.kinds)),
+            twice: adjacent.twice,
+            adjacent_left_out: adjacent.left_out,
+            adjacent_only_touching: adjacent.only_touching,
+            adjacent_degenerate: adjacent.degenerate,
+        }
+    }
+}
+
+fn kinds(kinds: Kinds) -> serde_json::Value {
+    json!({
+        "crossing": kinds.crossing,
+        "overlapping": kinds.overlapping,
+        "touching": kinds.touching,
+    })
 }
 
 /// Contacts on the way from a frame to the next, with `--swept`.
@@ -239,7 +294,7 @@ impl FirstEntry {
 struct PlaceEntry {
     /// Equal from frame to frame, as long as the place lives.
     number: usize,
-    /// Number of pairs.
+    /// Number of pairs, those that share a vertex too.
     count: usize,
     #[serde(flatten)]
     location: Location,
@@ -335,6 +390,7 @@ impl Json {
             ignore: arguments.ignore.clone(),
             baseline: arguments.baseline.clone(),
             skip_degenerate: arguments.skip_degenerate,
+            ignore_adjacent: arguments.ignore_adjacent,
             within: arguments.within,
             crossing: arguments.crossing,
             swept: arguments.swept,
@@ -401,6 +457,9 @@ impl Form for Json {
         if self.skip_degenerate {
             write!(out, r#","skip_degenerate":true"#)?;
         }
+        if self.ignore_adjacent {
+            write!(out, r#","ignore_adjacent":true"#)?;
+        }
         if let Some(within) = self.within {
             write!(out, r#","within":{}"#, json!(within))?;
         }
@@ -420,23 +479,20 @@ impl Form for Json {
             Some(ChangedEntry { body, mesh })
         });
         let places = found.places.as_ref().filter(|_| !self.count_only);
+        let adjacent = found.adjacent.as_ref();
         let entry = FrameEntry {
             frame: found.frame,
             changed: changed.collect(),
             count: found.count,
-            kinds: found.kinds.filter(|_| found.count > 0).map(|kinds| {
-                json!({
-                    "crossing": kinds.crossing,
-                    "overlapping": kinds.overlapping,
-                    "touching": kinds.touching,
-                })
-            }),
+            kinds: found.kinds.filter(|_| found.count > 0).map(kinds),
             complete: (!found.complete).then_some(false),
             distance: self.within.map(|_| json!(found.distance)),
             left_out: found.left_out,
             only_touching: found.only_touching,
             degenerate: found.degenerate,
             pairs: (!self.count_only).then_some(&found.pairs),
+            adjacent: adjacent.map(|adjacent| adjacent.count),
+            of_adjacent: adjacent.map(|it| AdjacentEntry::of(it, self.count_only)),
             places: places.map(|places| places.iter().map(PlaceEntry::of).collect()),
         };
         let separator = if self.has_frames { "," } else { "" };

@@ -29,6 +29,9 @@ pub(super) struct Table {
     within: Option<f64>,
     crossing: bool,
     swept: bool,
+    ignore_adjacent: bool,
+    /// Whether pairs that share a vertex are asked for. Set when the head is written.
+    adjacent: bool,
     /// Set when the head is written.
     files: Option<Files>,
 }
@@ -44,6 +47,8 @@ impl Table {
             within: arguments.within,
             crossing: arguments.crossing,
             swept: arguments.swept,
+            ignore_adjacent: arguments.ignore_adjacent,
+            adjacent: false,
             files: None,
         }
     }
@@ -72,7 +77,12 @@ impl Table {
         let touching = self
             .crossing
             .then(|| "places where surfaces only touch".to_owned());
-        let left_out = [known, degenerate, touching].into_iter().flatten();
+        let adjacent = self
+            .ignore_adjacent
+            .then(|| "triangles that share a vertex".to_owned());
+        let left_out = [known, degenerate, touching, adjacent]
+            .into_iter()
+            .flatten();
         let left_out: Vec<_> = left_out.collect();
         let left_out = match left_out.join(", and ") {
             none if none.is_empty() => none,
@@ -140,12 +150,14 @@ impl Form for Table {
         }
         self.files = Files::of(check);
         let file = self.files.as_ref().map_or_else(String::new, Files::header);
+        self.adjacent = check.asks_adjacent();
+        let adjacent = if self.adjacent { "  adjacent" } else { "" };
         let distance = self.within.map_or("", |_| "    distance");
         let left_out = self.baseline.as_ref().map_or("", |_| "  left out");
         let first_pair = if self.count_only { "" } else { "  first pair" };
         writeln!(
             out,
-            "checked: {}\n\n{:>8}{file}{:>10}{distance}{left_out}{first_pair}",
+            "checked: {}\n\n{:>8}{file}{:>10}{adjacent}{distance}{left_out}{first_pair}",
             self.asked(check),
             "frame",
             "pairs"
@@ -167,17 +179,31 @@ impl Form for Table {
         let files = self.files.as_ref();
         let file = files.map_or_else(String::new, |files| files.frame(check, frame));
         write!(out, "{frame:>8}{file} {:>9}", grouped(count as u64))?;
+        if self.adjacent {
+            match &found.adjacent {
+                Some(adjacent) => write!(out, " {:>9}", grouped(adjacent.count as u64))?,
+                None => write!(out, "{:>10}", "-")?,
+            }
+        }
         if self.within.is_some() {
             let distance = found.distance.map_or_else(|| "-".to_owned(), short);
             write!(out, "{distance:>12}")?;
         }
         if self.baseline.is_some() {
-            match found.left_out {
+            let adjacent = found.adjacent.as_ref();
+            let of_adjacent = adjacent.map_or(Some(0), |adjacent| adjacent.left_out);
+            match found
+                .left_out
+                .zip(of_adjacent)
+                .map(|(one, other)| one + other)
+            {
                 Some(left_out) => write!(out, " {:>9}", grouped(left_out as u64))?,
                 None => write!(out, "{:>10}", "-")?,
             }
         }
-        if let Some([body_a, a, body_b, b]) = found.smallest.filter(|_| !self.count_only) {
+        let adjacent = found.adjacent.as_ref().and_then(|it| it.smallest);
+        let smallest = found.smallest.or(adjacent);
+        if let Some([body_a, a, body_b, b]) = smallest.filter(|_| !self.count_only) {
             write!(
                 out,
                 "  triangle {a} of body {body_a}, triangle {b} of body {body_b}"
@@ -241,6 +267,9 @@ impl Form for Table {
                 }
                 if let Some(kinds) = tally.kinds(self.crossing) {
                     writeln!(out, "{kinds}")?;
+                }
+                if let Some(adjacent) = tally.adjacent.said() {
+                    writeln!(out, "{adjacent}; `--ignore-adjacent` leaves them out")?;
                 }
                 if tally.degenerate == 0 {
                     return Ok(());

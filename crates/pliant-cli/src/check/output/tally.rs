@@ -1,5 +1,6 @@
 //! Totals over all frames of a check, and the lines that say them.
 
+use crate::check::adjacent::AdjacentTally;
 use crate::check::figures::{counted, short};
 use crate::table::grouped;
 use pliant_check::{Found, Interval, Kinds};
@@ -19,6 +20,8 @@ pub(super) struct Tally {
     pub(super) kinds: Kinds,
     /// Number of pairs left out because their places only touch.
     pub(super) only_touching: usize,
+    /// Pairs that share a vertex.
+    pub(super) adjacent: AdjacentTally,
     /// Number of pairs with a triangle without area, counted or left out.
     pub(super) degenerate: usize,
     /// Number of intervals between frames that were searched, and of those with a contact.
@@ -30,13 +33,15 @@ pub(super) struct Tally {
 impl Tally {
     pub(super) fn count(&mut self, found: &Found) {
         self.frames += 1;
-        self.intersecting += usize::from(found.count > 0);
+        self.intersecting += usize::from(found.count_of_all() > 0);
+        if let Some(adjacent) = &found.adjacent {
+            self.degenerate += adjacent.degenerate;
+            self.only_touching += adjacent.only_touching.unwrap_or(0);
+        }
+        self.adjacent.count(found);
         self.degenerate += found.degenerate;
         self.only_touching += found.only_touching.unwrap_or(0);
-        let kinds = found.kinds.unwrap_or_default();
-        self.kinds.crossing += kinds.crossing;
-        self.kinds.overlapping += kinds.overlapping;
-        self.kinds.touching += kinds.touching;
+        self.kinds += found.kinds.unwrap_or_default();
         if let Some(distance) = found.distance
             && self.nearest.is_none_or(|(_, least)| distance < least)
         {

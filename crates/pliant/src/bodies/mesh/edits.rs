@@ -198,6 +198,13 @@ impl<S: Coordinate> BodyMesh<S> {
         if let Some(elements) = elements {
             elements.follow(changed, topology, &edits.at);
         }
+        if let Some(stars) = self.stars.get_mut() {
+            stars.resize(vertices);
+            let both = changed.iter().flat_map(|&(_, corners)| corners);
+            let touched = both.flatten().filter(|&vertex| vertex != u32::MAX);
+            stars.find(touched, topology.triangles(), &edits.at);
+            stars.resize(outcome.vertices);
+        }
         edits.at.resize(outcome.vertices, outcome.triangles);
         topology.set_vertex_count(outcome.vertices);
         topology.set_triangle_count(outcome.triangles);

@@ -18,6 +18,8 @@ macro_rules! every_kind {
                 => $crate::queries::Pair: intersections(of);
             contacts: $crate::collide::Asked<$crate::queries::Contacts<S>>
                 => $crate::queries::Contact: contacts(of);
+            adjacent: $crate::collide::AskedAdjacent
+                => $crate::queries::AdjacentContact: adjacent_intersections(of);
             vertex_triangle: $crate::collide::Asked<$crate::queries::VertexTriangleCandidates<S>>
                 => $crate::queries::VertexTriangle: vertex_triangle_candidates(of, length);
             edge_edge: $crate::collide::Asked<$crate::queries::EdgeEdgeCandidates<S>>
@@ -45,6 +47,8 @@ mod intersections;
 
 mod contacts;
 
+mod adjacent;
+
 mod candidates;
 
 mod close;
@@ -55,6 +59,7 @@ pub(super) mod impacts;
 
 /// References of all kinds, for the crate's `reference`.
 pub(crate) mod reference {
+    pub use super::adjacent::reference::*;
     pub use super::candidates::reference::*;
     pub use super::close::reference::*;
     pub use super::close_triangles::reference::*;

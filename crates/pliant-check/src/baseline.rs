@@ -130,9 +130,10 @@ pub(crate) fn read(
     let has_adjacent = frames.all(|frame| frame.adjacent_pairs.is_some());
     Ok(Known {
         pairs: rows_of(|frame| &frame.pairs, "pair")?,
-        adjacent: match has_adjacent {
-            true => Some(rows_of(|frame| &frame.adjacent_pairs, "adjacent pair")?),
-            false => None,
+        adjacent: if has_adjacent {
+            Some(rows_of(|frame| &frame.adjacent_pairs, "adjacent pair")?)
+        } else {
+            None
         },
     })
 }

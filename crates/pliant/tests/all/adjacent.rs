@@ -290,7 +290,7 @@ fn large_stars_are_searched_and_not_gone_through() {
 fn very_many_contacts_at_one_vertex_are_refused() {
     let mut world = World::<f32>::new();
     let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let body = world.add(&[[0, 1, 2]; 100_000], &corners).unwrap();
+    let body = world.add(&vec![[0, 1, 2]; 100_000], &corners).unwrap();
     let of = Selection::Within(body);
     let refused = world.adjacent_intersections(of).at_most(1_000_000).all();
     assert!(matches!(

@@ -151,6 +151,8 @@ impl Name {
 /// - baseline: a frame number, or a file that `pliant check --format json` wrote. Pairs that
 ///   intersect there are left out everywhere
 /// - skip_degenerate: leaves out pairs with a triangle that has no area
+/// - crossing_edges: also counts the edges that cross triangles: Frame.crossing_edges. Only ignore
+///   leaves any out. Not with within or first
 /// - places: joins the pairs of a frame into places with numbers that last: Frame.places,
 ///   Check.places. Not with first
 ///
@@ -174,13 +176,13 @@ impl Name {
     signature = (
         *paths, itself=false, within=None, crossing=false, ignore_adjacent=false, swept=false,
         first=false, weld=true, weld_tolerance=0.0, split=None, groups=None, ignore=None,
-        baseline=None, skip_degenerate=false, places=false, frames=None, clip=None, fps=30.0,
-        threads=Threads::Count(1)
+        baseline=None, skip_degenerate=false, crossing_edges=false, places=false, frames=None,
+        clip=None, fps=30.0, threads=Threads::Count(1)
     ),
     text_signature = "(*paths, itself=False, within=None, crossing=False, ignore_adjacent=False, \
         swept=False, first=False, weld=True, weld_tolerance=0.0, split=None, groups=None, \
-        ignore=None, baseline=None, skip_degenerate=False, places=False, frames=None, clip=None, \
-        fps=30.0, threads=1)"
+        ignore=None, baseline=None, skip_degenerate=False, crossing_edges=False, places=False, \
+        frames=None, clip=None, fps=30.0, threads=1)"
 )]
 #[expect(
     clippy::too_many_arguments,
@@ -203,6 +205,7 @@ pub(crate) fn check(
     ignore: Option<Vec<(Name, Name)>>,
     baseline: Option<Known>,
     skip_degenerate: bool,
+    crossing_edges: bool,
     places: bool,
     frames: Option<&Bound<'_, PyRange>>,
     clip: Option<String>,
@@ -227,6 +230,7 @@ pub(crate) fn check(
         ignore: (ignore.into_iter().flatten().map(two)).collect::<Result<_>>()?,
         baseline: baseline.map(Known::understood).transpose()?,
         skip_degenerate,
+        crossing_edges,
         places,
         frames: frames.map(range_of_frames).transpose()?,
         options: with_threads(threads)?,
@@ -341,6 +345,12 @@ impl Check {
                 twice = it.twice, left_out = it.left_out, only_touching = it.only_touching,
                 degenerate = it.degenerate)
         });
+        let crossing_edges = found.crossing_edges.map(|all| {
+            let counts = all.iter().map(
+                |it| named!(py, "CrossingEdges" of it: edge_body, triangle_body, edges, pairs),
+            );
+            tuple(py, counts)
+        });
         let places = found.places;
         let places = places.map(|places| tuple(py, places.iter().map(|it| place(py, it))));
         let interval = interval.map(|interval| way(py, interval));
@@ -349,6 +359,7 @@ impl Check {
             kinds = kinds.transpose()?, complete = found.complete, left_out = found.left_out,
             only_touching = found.only_touching, degenerate = found.degenerate,
             changed = changed, pairs = Rows(found.pairs), adjacent = adjacent.transpose()?,
+            crossing_edges = crossing_edges.transpose()?,
             places = places.transpose()?,
             interval = interval.transpose()?)?))
     }

@@ -16,7 +16,7 @@
 //! | `changes.rs` | `Changes`: hits that began, persist, ended |
 //! | `pickled.rs` | the state that pickle writes |
 //! | `queries/mod.rs` | the part that all kinds of queries share |
-//! | `queries/pairs.rs` | `Query`: intersections, and candidates |
+//! | `queries/pairs.rs` | `Query`: intersections, crossing edges, and candidates |
 //! | `queries/close.rs` | `CloseQuery`: close pairs, with distance, direction and closest points |
 //! | `queries/contacts.rs` | `ContactQuery`: which triangles intersect, and how |
 //! | `queries/impacts.rs` | `ImpactQuery`: which elements meet during a motion, and when |

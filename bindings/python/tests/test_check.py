@@ -78,6 +78,24 @@ def test_several_bodies_and_only_the_first_pair(folder: Path) -> None:
             assert all(pair in pairs for pair in frame.pairs.tolist())
 
 
+def said_apart(frame: pliant.Frame) -> dict[str, Any]:
+    """What the program says of pairs that share a vertex, and of crossing edges."""
+    edges = frame.crossing_edges
+    said: dict[str, Any] = {} if edges is None else {"crossing_edges": [list(two) for two in edges]}
+    adjacent = frame.adjacent
+    if adjacent is None:
+        return said
+    said |= {"adjacent": adjacent.count, "adjacent_pairs": adjacent.pairs.tolist()}
+    some = {
+        "adjacent_kinds": adjacent.kinds._asdict() if adjacent.count else None,
+        "twice": adjacent.twice or None,
+        "adjacent_left_out": adjacent.left_out,
+        "adjacent_only_touching": adjacent.only_touching,
+        "adjacent_degenerate": adjacent.degenerate or None,
+    }
+    return said | {name: value for name, value in some.items() if value is not None}
+
+
 def test_places(folder: Path) -> None:
     paths = (folder / "cloth.npz", folder / "still.obj")
     assert all(frame.places is None for frame in pliant.check(*paths, itself=True))
@@ -86,12 +104,13 @@ def test_places(folder: Path) -> None:
     lives: dict[int, list[int]] = {}
     for frame in checked:
         assert frame.places is not None
-        assert sum(place.count for place in frame.places) == frame.count
+        assert frame.adjacent is not None
+        assert sum(place.count for place in frame.places) == frame.count + frame.adjacent.count
         counts = [place.count for place in frame.places]
         assert counts == sorted(counts, reverse=True)
         for place in frame.places:
             lives.setdefault(place.number, []).append(frame.frame)
-            assert list(place.first_pair) in frame.pairs.tolist()
+            assert list(place.first_pair) in frame.pairs.tolist() + frame.adjacent.pairs.tolist()
             assert all(low <= high for low, high in zip(place.lower, place.upper))
             assert {place.first_pair[0], place.first_pair[2]} <= {there.body for there in place.bodies}
     assert lives
@@ -295,7 +314,7 @@ def test_the_program_says_the_same(folder: Path) -> None:
     paths = [str(folder / "cloth_*.obj"), str(folder / "still.obj")]
     for flags, options in (([], {}), (["--self"], {"itself": True}), (["--no-weld"], {"weld": False}), (["--first"], {"first": True})):
         said = json.loads(subprocess.run([program, "check", "--format", "json", *flags, *paths], capture_output=True).stdout)
-        checked = pliant.check(*paths, **options)  # type: ignore[arg-type]
+        checked = pliant.check(*paths, crossing_edges=True, **options)  # type: ignore[arg-type]
         bodies = [
             {"name": body.name, "vertices": body.vertices, "triangles": body.triangles}
             | ({} if body.faces is None else {"faces": body.faces.tolist()})
@@ -304,6 +323,7 @@ def test_the_program_says_the_same(folder: Path) -> None:
         ]
         frames = [
             {"frame": frame.frame, "count": frame.count, "pairs": frame.pairs.tolist()}
+            | said_apart(frame)
             | ({} if frame.complete else {"complete": False})
             | ({} if frame.kinds is None or not frame.count else {"kinds": frame.kinds._asdict()})
             for frame in checked
@@ -448,7 +468,7 @@ def test_the_program_says_the_same_of_pieces(pieces: Path) -> None:
     paths = [str(pieces / "both.npz"), str(pieces / "still.npz")]
     flags = ["--split", "components", "--baseline", "1", "--group", "g=0,2", "--ignore", "g,g"]
     said = json.loads(subprocess.run([program, "check", "--format", "json", *flags, *paths], capture_output=True).stdout)
-    checked = pliant.check(*paths, split="components", baseline=1, groups={"g": [0, 2]}, ignore=[("g", "g")])
+    checked = pliant.check(*paths, split="components", baseline=1, groups={"g": [0, 2]}, ignore=[("g", "g")], crossing_edges=True)
     fields = ("name", "vertices", "triangles", "source", "first_triangle")
     assert all(body.pop("box") for body in said["bodies"])
     assert said["bodies"] == [{field: getattr(body, field) for field in fields} for body in checked.bodies]
@@ -456,6 +476,7 @@ def test_the_program_says_the_same_of_pieces(pieces: Path) -> None:
         said_of_frame.pop("places", None)
     assert said["frames"] == [
         {"frame": frame.frame, "count": frame.count, "left_out": frame.left_out, "pairs": frame.pairs.tolist()}
+        | said_apart(frame)
         | ({} if frame.kinds is None or not frame.count else {"kinds": frame.kinds._asdict()})
         for frame in checked
     ]

@@ -64,7 +64,7 @@ def test_kinds_that_are_none() -> None:
 
 # Two triangles with a corner, an edge or all corners in common.
 ADJACENT = [
-    ([[0, 1, 2], [0, 3, 4]], [[0, 0, 0], [4, 1, -1], [4, 1, 1], [4, 0, 0], [4, 2, 0]], ContactKind.CROSSING),
+    ([[0, 1, 2], [0, 3, 4]], [[0, 0, 0], [3, 1, -1], [3, 1, 1], [4, 0, 0], [4, 2, 0]], ContactKind.CROSSING),
     ([[0, 1, 2], [1, 0, 3]], [[0, 0, 0], [4, 0, 0], [1, 2, 0], [2, 1, 0]], ContactKind.OVERLAPPING),
     ([[0, 1, 2], [0, 2, 1]], [[0, 0, 0], [4, 0, 0], [1, 2, 0]], ContactKind.OVERLAPPING),
     ([[0, 1, 2], [0, 3, 4]], [[0, 0, 0], [4, 0, 0], [4, 1, 0], [2, 0, 0], [2, -1, 1]], ContactKind.TOUCHING),
@@ -88,3 +88,22 @@ def test_triangles_that_share_a_vertex(dtype: type) -> None:
     for of in (Selection.WORLD, Selection.between(0, 1)):
         assert len(world.adjacent_intersections(of).all().pairs) == 0
     assert repr(crossing) == "<pliant.ContactQuery of Selection.within(0), adjacent, only Crossing>"
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_edges_that_cross_triangles(dtype: type) -> None:
+    world = pliant.World()
+    floor = world.add([[0, 1, 2]], np.array(FLOOR, dtype))
+    leaf = world.add([[0, 1, 2]], np.array([[1, 1, -1], [1, 1, 1], [2, 1, 1]], dtype))
+    rows = world.crossing_edges().all()
+    assert rows.dtype == np.uint32 and rows.shape == (2, 4)
+    assert world.edges(leaf)[rows[:, 1]].tolist() == [[0, 1], [0, 2]]
+    assert rows[:, [0, 2, 3]].tolist() == [[leaf, floor, 0]] * 2
+    first = world.crossing_edges(Selection.between(floor, leaf)).first()
+    assert first == pliant.CrossingEdge(*rows[0])
+    # The crossing is far from the vertex that the two triangles share.
+    faces, corners, _ = ADJACENT[0]
+    bow = world.add(faces, np.array(corners, dtype))
+    crossing = world.crossing_edges(Selection.within(bow))
+    assert [world.edges(bow)[row[1]].tolist() for row in crossing.all()] == [[1, 2]]
+    assert repr(crossing) == f"<pliant.Query of Selection.within({bow}), edges that cross triangles>"

@@ -6,7 +6,9 @@ use crate::bodies::{Bodies, BodyFacts};
 use crate::elements::Owners;
 use crate::error::Error;
 use crate::filter::Filter;
-use crate::found::{Adjacent, Closeness, Found, Gap, How, MOST_COUNTED, Stop, Taker};
+use crate::found::{
+    Adjacent, Closeness, CrossingEdges, Found, Gap, How, MOST_COUNTED, Stop, Taker,
+};
 use crate::interval::{ElementPair, Impact, ImpactTaker, Interval, WIDTH};
 use crate::joined::Meshes;
 use crate::lives::{Life, Lives};
@@ -21,7 +23,7 @@ use crate::touching::{BYTES_OF_TOUCHING, only_touch};
 use crate::with_world;
 use pliant::{ContactKind, ErrorKind, Query, Selection};
 use pliant_io::{Body as Source, OpenOptions};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::ops::{ControlFlow, Range};
 
 /// The caller's stop callback.
@@ -764,6 +766,13 @@ impl Check {
             }
         }
         self.baseline = baseline;
+        let counts_edges = self.asked.crossing_edges && self.asked.within.is_none();
+        if counts_edges && !first && matches!(visited, Ok(ControlFlow::Continue(()))) {
+            match self.count_crossing_edges(stop) {
+                Ok(counts) => found.crossing_edges = Some(counts),
+                Err(error) => visited = Err(error),
+            }
+        }
         match visited.map_err(|error| self.refused(frame, error))? {
             ControlFlow::Break(Stop::Full(most)) => Err(Error::TooManyPairs { frame, most }),
             ControlFlow::Break(Stop::Endless) => {
@@ -910,7 +919,7 @@ impl Check {
         }
         let given = self.sequence.given;
         if self.owners.is_empty() || self.owners_of != given || self.asked.skip_degenerate {
-            self.owners = self.owners_now()?;
+            self.owners = self.owners_now(self.asked.skip_degenerate)?;
             self.owners_of = given;
         }
         let Self {
@@ -967,9 +976,8 @@ impl Check {
     /// Owners of the elements of all sources for the current motion; `None` for a source of one
     /// body.
     ///
-    /// Without triangles that are degenerate in both frames, if these are skipped.
-    fn owners_now(&self) -> Result<Vec<Option<Owners>>, pliant::Error> {
-        let skip = self.asked.skip_degenerate;
+    /// Without triangles that are degenerate in both frames, if `skip` is set.
+    fn owners_now(&self, skip: bool) -> Result<Vec<Option<Owners>>, pliant::Error> {
         let Sequence {
             sources,
             world,
@@ -998,6 +1006,52 @@ impl Check {
             })
         });
         owners.collect()
+    }
+
+    /// Counts the edges that cross triangles, for every two bodies with any.
+    fn count_crossing_edges(
+        &mut self,
+        question: Option<Question>,
+    ) -> Result<Vec<CrossingEdges>, pliant::Error> {
+        // With the bodies of its triangles where a source is split.
+        let owners = self.owners_now(false)?;
+        let Self {
+            of,
+            sequence,
+            bodies,
+            filter,
+            asked: Settings { itself, .. },
+            ..
+        } = self;
+        let is_asked = |a: u32, b: u32| (a != b || *itself) && filter.meet(a, b);
+        let mut counts: BTreeMap<[u32; 2], CrossingEdges> = BTreeMap::new();
+        let mut seen: HashSet<[u32; 3]> = HashSet::new();
+        let mut count = |crossing: pliant::CrossingEdge| {
+            let (source, other) = (crossing.edge_body.0, crossing.triangle_body.0);
+            let whole = [bodies.of_source(source as usize).start];
+            let of_edge = owners[source as usize].as_ref();
+            let of_edge = of_edge.map_or(&whole[..], |owners| owners.of_edge(crossing.edge));
+            let Some(triangle_body) = bodies.of_triangle(other, crossing.triangle) else {
+                return;
+            };
+            for &edge_body in of_edge
+                .iter()
+                .filter(|&&body| is_asked(body, triangle_body))
+            {
+                let new = CrossingEdges::none(edge_body, triangle_body);
+                let of_two = counts.entry([edge_body, triangle_body]).or_insert(new);
+                of_two.pairs += 1;
+                let is_new = seen.insert([edge_body, triangle_body, crossing.edge]);
+                of_two.edges += usize::from(is_new);
+            }
+        };
+        let _ = with_world!(&mut sequence.world, world => {
+            unless(question, world.crossing_edges(*of)).visit(|crossing| {
+                count(crossing);
+                ControlFlow::<()>::Continue(())
+            })
+        })?;
+        Ok(counts.into_values().collect())
     }
 
     /// Shows `taker` any one pair, by the world's faster query for the first.

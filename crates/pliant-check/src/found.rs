@@ -37,6 +37,10 @@ pub struct Found {
     /// Pairs of triangles of one source that share a vertex and meet beyond it. `None` if they were
     /// not asked for.
     pub adjacent: Option<Adjacent>,
+    /// Edges that cross triangles, for every two bodies with any, in order of the bodies. `None` if
+    /// [`crossing_edges`](crate::Settings::crossing_edges) is not set, or only the first pair was
+    /// asked for.
+    pub crossing_edges: Option<Vec<CrossingEdges>>,
     /// Number of pairs left out because the baseline has them. `None` without a baseline, or if the
     /// search stopped at the first new pair.
     pub left_out: Option<usize>,
@@ -73,6 +77,32 @@ pub struct Adjacent {
     pub only_touching: Option<usize>,
     /// Number of pairs with a triangle without area: among these, or left out if such pairs are.
     pub degenerate: usize,
+}
+
+/// Edges of one body that cross triangles of another, or of itself.
+///
+/// The open edge meets the open triangle, and not in its plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CrossingEdges {
+    /// Body of the edges. An edge between two bodies of a source is of both.
+    pub edge_body: u32,
+    /// Body of the triangles.
+    pub triangle_body: u32,
+    /// Number of edges that cross any triangle.
+    pub edges: usize,
+    /// Number of pairs of an edge and a triangle that it crosses.
+    pub pairs: usize,
+}
+
+impl CrossingEdges {
+    pub(crate) fn none(edge_body: u32, triangle_body: u32) -> Self {
+        Self {
+            edge_body,
+            triangle_body,
+            edges: 0,
+            pairs: 0,
+        }
+    }
 }
 
 impl Found {
@@ -199,6 +229,7 @@ impl<'a> Taker<'a> {
             pairs: Vec::new(),
             gaps: Vec::new(),
             adjacent: None,
+            crossing_edges: None,
             left_out: baseline.map(|_| 0),
             only_touching: None,
             degenerate: 0,

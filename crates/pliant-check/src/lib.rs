@@ -88,7 +88,7 @@ pub use any_world::{AnyWorld, NotTaken, double, single};
 pub use bodies::BodyFacts;
 pub use check::Check;
 pub use error::Error;
-pub use found::{Adjacent, Found, Gap, Kinds};
+pub use found::{Adjacent, CrossingEdges, Found, Gap, Kinds};
 pub use interval::{FirstImpact, Impact, Interval};
 pub use joined::Meshes;
 pub use lives::{Life, Lives};

@@ -36,6 +36,9 @@ pub struct Settings {
     /// Otherwise they are found wherever a source meets itself, as one body or between its groups
     /// or pieces, but not with [`within`](Self::within).
     pub ignore_adjacent: bool,
+    /// Also counts the edges that cross triangles, whatever pairs are left out:
+    /// [`Found::crossing_edges`](crate::Found). Not with [`within`](Self::within).
+    pub crossing_edges: bool,
     /// Lists the closest points of each pair within the distance, in [`Found::gaps`](crate::Found).
     ///
     /// Only where pairs of [`within`](Self::within) are listed. A pair then takes 88 bytes of
@@ -151,6 +154,7 @@ impl Default for Settings {
             swept: false,
             crossing: false,
             ignore_adjacent: false,
+            crossing_edges: false,
             closest_points: false,
             first: false,
             listed: true,

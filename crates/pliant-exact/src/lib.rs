@@ -2,6 +2,7 @@
 
 mod adjacent;
 mod contact_kind;
+mod crossing_edges;
 pub mod distance;
 mod element_pairs;
 mod environment;
@@ -19,6 +20,7 @@ mod vector;
 
 pub use adjacent::adjacent_contact;
 pub use contact_kind::ContactKind;
+pub use crossing_edges::crossing_edges;
 pub use element_pairs::{
     ELEMENT_PAIRS, FIRST_OF_EDGES, barycentric, four_corners, is_swapped, on_edge,
 };

@@ -57,6 +57,26 @@ pub(crate) fn adjacent_triangles<S: Real, T>(
     Ok(pairs)
 }
 
+/// Pairs (edge of a, triangle of b) for which `is_found` holds, sorted.
+pub(crate) fn edges_and_triangles<S: Real>(
+    (triangles_a, positions_a): Mesh<S>,
+    (triangles_b, positions_b): Mesh<S>,
+    is_found: impl Fn(&[[f64; 3]; 2], &Triangle) -> bool,
+) -> Result<Vec<[u32; 2]>, Error> {
+    corners(triangles_a, positions_a)?;
+    let all_b = corners(triangles_b, positions_b)?;
+    let mut pairs = Vec::new();
+    for (i, ends) in (0..).zip(edges(triangles_a)) {
+        let edge = ends.map(|vertex| positions_a[vertex as usize].map(Real::to_f64));
+        for (j, triangle) in (0..).zip(&all_b) {
+            if is_found(&edge, triangle) {
+                pairs.push([i, j]);
+            }
+        }
+    }
+    Ok(pairs)
+}
+
 /// The pairs without what was found of each.
 pub(crate) fn without<T>(pairs: Vec<([u32; 2], T)>) -> Vec<[u32; 2]> {
     pairs.into_iter().map(|(pair, _)| pair).collect()

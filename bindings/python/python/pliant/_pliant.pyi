@@ -30,6 +30,7 @@ from ._types import (
     Contact,
     ContactKind,
     Contacts,
+    CrossingEdge,
     EdgeEdge,
     Edited,
     Frame,
@@ -70,7 +71,7 @@ __all__ = [
 
 __version__: str
 
-_Hit = TypeVar("_Hit", Pair, VertexTriangle, EdgeEdge, covariant=True)
+_Hit = TypeVar("_Hit", Pair, CrossingEdge, VertexTriangle, EdgeEdge, covariant=True)
 
 class _Dlpack(Protocol):
     def __dlpack__(self) -> Any: ...
@@ -220,6 +221,8 @@ class World:
         self, of: Selection = ..., *, only: ContactKind | int | None = None,
     ) -> ContactQuery:
         """Asks which triangles that share a vertex meet beyond it, and how: a ContactQuery."""
+    def crossing_edges(self, of: Selection = ...) -> Query[CrossingEdge]:
+        """Asks which edges cross which triangles: a Query of rows (k, 4) uint32."""
     def vertex_triangle_candidates(self, of: Selection, radius: float) -> Query[VertexTriangle]:
         """Asks which vertices are near which triangles: a Query of rows (k, 4) uint32."""
     def edge_edge_candidates(self, of: Selection, radius: float) -> Query[EdgeEdge]:
@@ -358,7 +361,7 @@ class Query(Generic[_Hit]):
     def all(self, *, at_most: int | None = None) -> _Hits:
         """All hits, a new array (k, 4) uint32, sorted."""
     def first(self) -> _Hit | None:
-        """Some hit, a Pair, VertexTriangle or EdgeEdge, or None if there is none."""
+        """Some hit, a Pair, CrossingEdge, VertexTriangle or EdgeEdge, or None if there is none."""
     def visit(self, visit: Callable[[_Hit], object]) -> bool:
         """Calls visit(hit) for every hit once, until it returns true. Returns whether it did."""
     def visit_some(self, visit: Callable[[_Hits], object]) -> bool:
@@ -397,6 +400,7 @@ def check(
     ignore: Sequence[tuple[_Name, _Name]] | None = None,
     baseline: int | str | PathLike[str] | None = None,
     skip_degenerate: bool = False,
+    crossing_edges: bool = False,
     places: bool = False,
     frames: range | None = None,
     clip: str | None = None,

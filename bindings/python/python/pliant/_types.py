@@ -110,6 +110,18 @@ class Pair(NamedTuple):
     triangle_b: int
 
 
+class CrossingEdge(NamedTuple):
+    """An edge that crosses a triangle, of two bodies or of one: a row of Query.all.
+
+    World.edges numbers edges.
+    """
+
+    edge_body: int
+    edge: int
+    triangle_body: int
+    triangle: int
+
+
 class VertexTriangle(NamedTuple):
     """A vertex near a triangle, of two bodies or of one: a row of Query.all.
 
@@ -439,6 +451,19 @@ class Kinds(NamedTuple):
     touching: int
 
 
+class CrossingEdges(NamedTuple):
+    """Edges of a body that cross triangles of another, or of itself: see Frame.crossing_edges."""
+
+    edge_body: int
+    """Body of the edges. An edge between two bodies of a file is of both."""
+    triangle_body: int
+    """Body of the triangles."""
+    edges: int
+    """Number of edges that cross any triangle."""
+    pairs: int
+    """Number of pairs of an edge and a triangle that it crosses."""
+
+
 @dataclass(frozen=True, eq=False)
 class Adjacent:
     """Pairs of a frame that share a vertex and meet beyond it: see Frame.adjacent."""
@@ -474,6 +499,9 @@ class Frame:
     """Pairs that share a vertex and meet beyond it, which are not in count. None where they are not
     asked for: between different files, with within= or ignore_adjacent=True, and where first=True
     has found another pair."""
+    crossing_edges: tuple[CrossingEdges, ...] | None
+    """Edges that cross triangles, for every two bodies with any; None without
+    crossing_edges=True, and with first=True or within=."""
     kinds: Kinds | None
     """Number of pairs of each kind; None with first=True or within=."""
     distance: float | None
@@ -522,8 +550,8 @@ class OpenMesh(Protocol):
 
 _PUBLIC = (
     *(Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Contact, ContactKind, Contacts),
-    *(Changed, Edited, Fused, Piece, Impact, Impacts, FreeStep, TreeBoxes, TreeShape, Statistics),
-    *(Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Adjacent, Frame, Mesh, OpenMesh),
+    *(CrossingEdge, Changed, Edited, Fused, Piece, Impact, Impacts, FreeStep, TreeBoxes, TreeShape, Statistics),
+    *(Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Adjacent, CrossingEdges, Frame, Mesh, OpenMesh),
 )
 for _public in _PUBLIC:
     _public.__module__ = "pliant"

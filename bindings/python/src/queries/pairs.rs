@@ -1,16 +1,19 @@
-//! `Query`: which triangles intersect, and which elements are candidates; hits are rows of numbers.
+//! `Query`: which triangles intersect, which edges cross triangles, and which elements are
+//! candidates; hits are rows of numbers.
 
 use crate::answers::{Any, class, copy_of_rows};
 use crate::error::Result;
 use crate::queries::{Each, Hit, Kind, Want, Wanted, query_class};
 use numpy::PyArray2;
-use pliant::{EdgeEdge, Pair, Scalar, VertexTriangle};
+use pliant::{CrossingEdge, EdgeEdge, Pair, Scalar, VertexTriangle};
 use pyo3::prelude::*;
 
-/// Kind of question: triangles that intersect, or elements near each other within a margin.
+/// Kind of question: triangles that intersect, edges that cross triangles, or elements near each
+/// other within a margin.
 #[derive(Clone, Copy)]
 pub(crate) enum Pairs {
     Intersections,
+    CrossingEdges,
     VertexTriangleCandidates(f64),
     EdgeEdgeCandidates(f64),
 }
@@ -24,6 +27,7 @@ impl Kind for Pairs {
     ) -> Result<W::Answer> {
         match self {
             Self::Intersections => wanted.of(world.intersections(of)),
+            Self::CrossingEdges => wanted.of(world.crossing_edges(of)),
             Self::VertexTriangleCandidates(radius) => {
                 wanted.of(world.vertex_triangle_candidates(of, radius))
             }
@@ -34,6 +38,7 @@ impl Kind for Pairs {
     fn said(self) -> String {
         match self {
             Self::Intersections => String::new(),
+            Self::CrossingEdges => ", edges that cross triangles".to_owned(),
             Self::VertexTriangleCandidates(radius) => {
                 format!(", vertices and triangles, margin {radius}")
             }
@@ -66,14 +71,16 @@ macro_rules! rows {
 }
 
 rows!(Pair, "Pair");
+rows!(CrossingEdge, "CrossingEdge");
 rows!(VertexTriangle, "VertexTriangle");
 rows!(EdgeEdge, "EdgeEdge");
 
 query_class! {
     /// A question to a world, answered by all(), first() or visit().
     ///
-    /// World.intersections and the two methods for candidates make it. Ask for all() hits, the
-    /// first(), or a visit(...). Each call asks anew, about the shapes that the bodies have then.
+    /// World.intersections, crossing_edges and the two methods for candidates make it. Ask for
+    /// all() hits, the first(), or a visit(...). Each call asks anew, about the shapes that the
+    /// bodies have then.
     ///
     /// Whatever is asked, a call raises pliant.Error and leaves the world usable:
     ///
@@ -89,8 +96,9 @@ query_class! {
 
     /// All hits, a new array (k, 4) uint32, sorted.
     ///
-    /// A row is body, triangle, body, triangle. Of candidates it is body, vertex, body, triangle,
-    /// or body, edge, body, edge. Options, history and number of threads do not change it.
+    /// A row is body, triangle, body, triangle. Of crossing edges it is body, edge, body, triangle.
+    /// Of candidates it is body, vertex, body, triangle, or body, edge, body, edge. Options,
+    /// history and number of threads do not change it.
     ///
     /// at_most refuses a longer list with pliant.Error: TooManyHits, before it fills the memory.
     ///
@@ -98,7 +106,7 @@ query_class! {
     /// what grows with the region where bodies are close. Sorting is O(k).
     all;
 
-    /// Some hit, a Pair, VertexTriangle or EdgeEdge, or None if there is none.
+    /// Some hit, a Pair, CrossingEdge, VertexTriangle or EdgeEdge, or None if there is none.
     ///
     /// Much cheaper than all() where there are many. Options and history may change which one it
     /// is, never whether there is one.
@@ -119,8 +127,9 @@ query_class! {
 
     /// Calls visit(hit) for every hit once, until it returns true. Returns whether it did.
     ///
-    /// hit is a Pair, VertexTriangle or EdgeEdge. The order is deterministic, not sorted. visit may
-    /// not ask this world; its exceptions pass through. visit_some is faster where there are many.
+    /// hit is a Pair, CrossingEdge, VertexTriangle or EdgeEdge. The order is deterministic, not
+    /// sorted. visit may not ask this world; its exceptions pass through. visit_some is faster
+    /// where there are many.
     fn visit(&self, visit: &Any<'_>) -> Result<bool> {
         self.0.ask(visit.py(), Each(visit.as_unbound()))
     }

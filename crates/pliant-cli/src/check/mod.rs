@@ -117,6 +117,7 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
         within: arguments.within,
         crossing: arguments.crossing,
         ignore_adjacent: arguments.ignore_adjacent,
+        crossing_edges: !arguments.quiet && arguments.format == Format::Json,
         swept: arguments.swept,
         closest_points: arguments.pictures.any(),
         max_list: arguments.max_memory,

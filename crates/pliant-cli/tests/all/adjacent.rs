@@ -7,7 +7,7 @@ use std::fs;
 use tempfile::TempDir;
 
 /// One corner in common; they cross far from it.
-const BOW: &str = "v 0 0 0\nv 4 1 -1\nv 4 1 1\nv 4 0 0\nv 4 2 0\nf 1 2 3\nf 1 4 5\n";
+const BOW: &str = "v 0 0 0\nv 3 1 -1\nv 3 1 1\nv 4 0 0\nv 4 2 0\nf 1 2 3\nf 1 4 5\n";
 /// An edge in common, folded flat onto each other.
 const FOLD: &str = "v 0 0 0\nv 4 0 0\nv 1 2 0\nv 2 1 0\nf 1 2 3\nf 2 1 4\n";
 /// A triangle that is there twice.
@@ -240,4 +240,39 @@ fn hits_pictures_and_pages_show_them() {
     let words = "1 pair of triangles shares a vertex and meets beyond it";
     assert!(page.contains(words));
     assert!(files.path().join("bow.png").exists());
+}
+
+/// Different edges, and pairs of an edge and a triangle, for every two bodies with any.
+#[test]
+fn crossing_edges_are_counted() {
+    let files = files();
+    let counts = |arguments: &[&str]| frames(&files, arguments).1[0]["crossing_edges"].clone();
+    assert_eq!(counts(&["bow.obj"]), json!([[0, 0, 1, 1]]));
+    // Whatever pairs are left out.
+    assert_eq!(
+        counts(&["bow.obj", "--ignore-adjacent", "--count"]),
+        json!([[0, 0, 1, 1]])
+    );
+    assert_eq!(counts(&["touch.obj"]), json!([]));
+    assert_eq!(counts(&["bow.obj", "--first"]), Value::Null);
+    // An upright triangle through two levels: each of its edges crosses both.
+    let levels = "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 1\nv 9 0 1\nv 0 9 1\nf 1 2 3\nf 4 5 6\n";
+    fs::write(files.path().join("levels.obj"), levels).unwrap();
+    fs::write(
+        files.path().join("up.obj"),
+        "v 1 1 -1\nv 1 1 2\nv 2 1 2\nf 1 2 3\n",
+    )
+    .unwrap();
+    assert_eq!(counts(&["levels.obj", "up.obj"]), json!([[1, 0, 2, 4]]));
+    assert_eq!(
+        counts(&["levels.obj", "up.obj", "--ignore", "levels.obj,up.obj"]),
+        json!([])
+    );
+    // An edge between two groups is of both.
+    let corners = "v 0 0 0\nv 3 1 -1\nv 3 1 1\nv 4 0 0\nv 4 2 0\nv 9 1 0\n";
+    let groups = "g wing\nf 1 2 3\ng tail\nf 3 2 6\ng plate\nf 1 4 5\n";
+    let bow = corners.to_owned() + groups;
+    fs::write(files.path().join("groups.obj"), bow).unwrap();
+    let groups = counts(&["groups.obj", "--split", "groups"]);
+    assert_eq!(groups, json!([[0, 2, 1, 1], [1, 2, 1, 1], [2, 1, 1, 1]]));
 }

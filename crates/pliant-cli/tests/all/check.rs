@@ -54,7 +54,7 @@ fn one_when_something_intersects() {
     let bodies = json!([{"name": "a.obj", "vertices": 6, "triangles": 2}]);
     let frames = json!([
         {"frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [[0, 0, 0, 1]],
-            "adjacent": 0, "adjacent_pairs": []}
+            "adjacent": 0, "adjacent_pairs": [], "crossing_edges": [[0, 0, 2, 2]]}
     ]);
     assert_eq!(
         itself.json_without_places(),
@@ -76,7 +76,8 @@ fn one_when_something_intersects() {
     let count = check(path, &["a.obj", "b.obj", "--count", "--format", "json"]);
     assert_eq!(
         count.json()["frames"],
-        json!([{"frame": 0, "count": 2, "kinds": kinds([1, 1, 0])}])
+        json!([{"frame": 0, "count": 2, "kinds": kinds([1, 1, 0]),
+            "crossing_edges": [[1, 0, 2, 2]]}])
     );
     assert_eq!(count.code, 1);
 

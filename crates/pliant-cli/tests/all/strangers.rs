@@ -579,7 +579,13 @@ fn more_pairs_than_memory() {
             let smallest = "triangle 0 of body 0, triangle 1 of body 0";
             assert!(said.out.contains(smallest), "{}", said.out);
         }
-        assert!(peak.is_none_or(|peak| peak < LITTLE / 2), "{peak:?}");
+        // Crossing edges, which JSON counts, are searched with buffers of their own.
+        let most = if arguments.is_empty() {
+            LITTLE / 2
+        } else {
+            LITTLE
+        };
+        assert!(peak.is_none_or(|peak| peak < most), "{peak:?}");
     }
 }
 

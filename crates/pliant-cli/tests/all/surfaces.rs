@@ -641,9 +641,11 @@ fn groups_of_an_obj_file_are_bodies() {
         })
     };
     let frame = |pair: [u32; 4]| {
+        // The edges are of the upright triangle.
+        let crossing_edges = [[pair[2], pair[0], 2, 2]];
         json!({
             "frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [pair],
-            "adjacent": 0, "adjacent_pairs": []
+            "adjacent": 0, "adjacent_pairs": [], "crossing_edges": crossing_edges
         })
     };
     let whole = json(&["scan.obj"]);
@@ -677,7 +679,7 @@ fn groups_of_an_obj_file_are_bodies() {
         json!({
             "format": 1, "bodies": bodies, "triangle_numbers": "source", "sources": whole["bodies"],
             "frames": [{"frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [[0, 2, 1, 0]],
-                "adjacent": 0, "adjacent_pairs": []}]
+                "adjacent": 0, "adjacent_pairs": [], "crossing_edges": [[0, 1, 2, 2]]}]
         })
     );
     // Their common edge is no hit, and nothing else is left.

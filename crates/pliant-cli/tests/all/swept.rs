@@ -68,7 +68,8 @@ fn a_jump_through_a_triangle_has_its_exact_time() {
         ],
         "edge_edge": []
     });
-    let [first, second] = [0, 1].map(|frame| json!({"frame": frame, "count": 0, "pairs": []}));
+    let [first, second] =
+        [0, 1].map(|frame| json!({"frame": frame, "count": 0, "pairs": [], "crossing_edges": []}));
     assert_eq!(frames(&said), json!([first, interval, second]));
 
     let said = swept(folder.path(), &["--format", "json", "--count"]);
@@ -76,7 +77,8 @@ fn a_jump_through_a_triangle_has_its_exact_time() {
         "frame": 0, "until": 1, "count": 3, "at_start": 0,
         "first": {"time": high, "kind": "vertex_triangle", "pair": [0, 0, 1, 0]}
     });
-    let [first, second] = [0, 1].map(|frame| json!({"frame": frame, "count": 0}));
+    let [first, second] =
+        [0, 1].map(|frame| json!({"frame": frame, "count": 0, "crossing_edges": []}));
     assert_eq!(frames(&said), json!([first, counted, second]));
 
     let said = swept(folder.path(), &["--format", "json", "--first"]);
@@ -152,16 +154,18 @@ fn what_touches_in_a_frame_is_news_of_the_way_there_alone() {
     assert_eq!(
         frames,
         json!([
-            {"frame": 0, "count": 0, "pairs": []},
+            {"frame": 0, "count": 0, "pairs": [], "crossing_edges": []},
             {"frame": 0, "until": 1, "count": 1, "at_start": 0, "first": news,
              "vertex_triangle": [[0, 0, 1, 0, 1.0 - STEP, 1.0]], "edge_edge": []},
-            {"frame": 1, "count": 1, "kinds": kinds([0, 0, 1]), "pairs": touch},
+            {"frame": 1, "count": 1, "kinds": kinds([0, 0, 1]), "pairs": touch,
+             "crossing_edges": []},
             {"frame": 1, "until": 2, "count": 0, "at_start": 1, "first": null,
              "vertex_triangle": [], "edge_edge": []},
-            {"frame": 2, "count": 1, "kinds": kinds([0, 0, 1]), "pairs": touch},
+            {"frame": 2, "count": 1, "kinds": kinds([0, 0, 1]), "pairs": touch,
+             "crossing_edges": []},
             {"frame": 2, "until": 3, "count": 0, "at_start": 1, "first": null,
              "vertex_triangle": [], "edge_edge": []},
-            {"frame": 3, "count": 0, "pairs": []}
+            {"frame": 3, "count": 0, "pairs": [], "crossing_edges": []}
         ])
     );
 }

@@ -56,7 +56,7 @@ fn pieces_of_a_file_are_bodies() {
     let frames = json!([{
         "frame": 0, "count": 3, "kinds": kinds([3, 0, 0]),
         "pairs": [[0, 0, 1, 1], [0, 2, 1, 1], [1, 1, 3, 0]],
-        "adjacent": 0, "adjacent_pairs": []
+        "adjacent": 0, "adjacent_pairs": [], "crossing_edges": [[0, 1, 3, 3], [3, 1, 2, 2]]
     }]);
     assert_eq!(
         said,
@@ -388,9 +388,10 @@ fn with_itself_too() {
     let frames = json(folder.path(), &["*.obj", "--baseline", "0"])["frames"].clone();
     let expected = json!([
         {"frame": 0, "count": 0, "left_out": 1, "pairs": [], "adjacent": 0, "adjacent_pairs": [],
-            "adjacent_left_out": 0},
+            "adjacent_left_out": 0, "crossing_edges": [[0, 0, 2, 2]]},
         {"frame": 1, "count": 1, "kinds": kinds([1, 0, 0]), "left_out": 1, "pairs": [[0, 1, 0, 2]],
-            "adjacent": 0, "adjacent_pairs": [], "adjacent_left_out": 0},
+            "adjacent": 0, "adjacent_pairs": [], "adjacent_left_out": 0,
+            "crossing_edges": [[0, 0, 4, 4]]},
     ]);
     assert_eq!(frames, expected);
 }

@@ -385,6 +385,7 @@ impl<S: Coordinate> Body<S> {
             shape: self.shape.view(mesh.order(), Origin::default()),
             order: mesh.order(),
             removed: mesh.removed(),
+            mesh,
             stars,
         })
     }

@@ -8,7 +8,7 @@ use crate::held::{self, held};
 use crate::ids::{BodyId, TreeTriangle, TreeVertex};
 use crate::kernels::Coordinate;
 use crate::mesh::{Bits, EMPTY, Elements, Order, Stars, Topology, TrianglesAt};
-use crate::queries::Removed;
+use crate::queries::{OwnEdges, Removed};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -325,6 +325,29 @@ impl<S: Coordinate> BodyMesh<S> {
             }
         }
         positions
+    }
+}
+
+impl<S: Coordinate> OwnEdges for BodyMesh<S> {
+    /// In an edited mesh the smallest triangle at an edge has it, else the first in tree order.
+    fn own_edge(
+        &self,
+        triangle: TreeTriangle,
+        corner: usize,
+        stop: &dyn Fn() -> bool,
+    ) -> Option<u32> {
+        let elements = self.elements(stop)?;
+        let Some(edits) = &self.edits else {
+            return elements.own_edge(&self.order, triangle, corner);
+        };
+        let triangle = self.order.caller_triangle(triangle).0;
+        let corners = self.triangles()[triangle as usize];
+        let [p, q] = [corners[corner], corners[(corner + 1) % 3]];
+        let has_q = |other: &u32| self.triangles()[*other as usize].contains(&q);
+        let is_own = edits.at.of(p).filter(has_q).min() == Some(triangle);
+        let sides = elements.sides(&self.topology, triangle);
+        let is_first = !sides[..corner].contains(&sides[corner]);
+        sides[corner].filter(|_| is_own && is_first)
     }
 }
 

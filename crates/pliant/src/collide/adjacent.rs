@@ -7,7 +7,9 @@ use crate::error::{Error, ErrorKind};
 use crate::held::{self, Held, held};
 use crate::ids::Place;
 use crate::kernels::{Coordinate, Instructions};
-use crate::queries::{AdjacentContact, AdjacentSearch, Needs};
+use crate::queries::{
+    AdjacentContact, AdjacentSearch, AdjacentSink, Needs, StarredBody, TreeAdjacent,
+};
 use crate::selection::Selection;
 use crate::sort::sort_lists;
 use crate::statistics::Statistics;
@@ -44,17 +46,18 @@ impl AskedAdjacent {
         self.lists.iter_mut().for_each(Vec::clear);
         self.searches.for_threads(threads);
         let (searches, lists, count) = (&self.searches, &self.lists, AtomicUsize::new(0));
-        let keep = |found: &[AdjacentContact]| {
+        let keep = |body: &StarredBody<S>, found: &[TreeAdjacent]| {
             let before = count.fetch_add(found.len(), Ordering::Relaxed);
             if before.saturating_add(found.len()) > request.most {
                 return ControlFlow::Break(());
             }
-            lists.own().extend_from_slice(found);
+            let found = found.iter().map(|hit| body.to_caller(hit));
+            lists.own().extend(found);
             ControlFlow::Continue(())
         };
         let search = |body: &mut Body<S>, executor: Executor, statistics: &mut Statistics| {
             let threads = (step.refit.instructions, executor);
-            let sink: Sink = &mut &keep;
+            let sink: AdjacentSink<S> = &mut &keep;
             search_body(
                 &mut searches.own(),
                 body,
@@ -108,6 +111,23 @@ impl AskedAdjacent {
         request: &Request,
         visitor: Visitor<AdjacentContact>,
     ) -> Result<(), Error> {
+        let mut shown = std::mem::take(&mut self.listed);
+        let done = self.each(common, request, &mut |body, found| {
+            shown.clear();
+            shown.extend(found.iter().map(|hit| body.to_caller(hit)));
+            visitor(&shown).map_break(|_| ())
+        });
+        self.listed = shown;
+        done
+    }
+
+    /// Passes every hit once to a sink, body by body, until that breaks.
+    pub(super) fn each<S: Coordinate>(
+        &mut self,
+        common: &mut Common<S>,
+        request: &Request,
+        sink: AdjacentSink<S>,
+    ) -> Result<(), Error> {
         let interrupt = Interrupt::new(request.question);
         common.begin(request)?;
         let (step, bodies, _) = common.step(Needs::TRIANGLES, &interrupt, false);
@@ -118,14 +138,15 @@ impl AskedAdjacent {
         self.places.extend(bodies_asked(bodies, request.of));
         for &place in &self.places {
             let body = bodies.at_mut(place);
-            let sink: Sink = &mut |found| visitor(found).map_break(|_| ());
-            if search_body(&mut search, body, request, threads, step.statistics, sink).is_break() {
+            let statistics = &mut *step.statistics;
+            if search_body(&mut search, body, request, threads, statistics, sink).is_break() {
                 break;
             }
         }
         drop(search);
         common.end(&interrupt)
     }
+
     /// Does early what a query does first: finds the stars of the mesh, and brings shapes into tree
     /// order.
     pub(crate) fn prepare<S: Coordinate>(
@@ -142,9 +163,6 @@ impl AskedAdjacent {
         common.end(&interrupt)
     }
 }
-
-/// Sink of the hits of a body.
-type Sink<'s> = &'s mut dyn FnMut(&[AdjacentContact]) -> ControlFlow<()>;
 
 /// Bodies of a selection that meet themselves, in the order of their ids.
 fn bodies_asked<S: Coordinate>(bodies: &Bodies<S>, of: Selection) -> impl Iterator<Item = Place> {
@@ -164,7 +182,7 @@ fn search_body<S: Coordinate>(
     request: &Request,
     threads: (Instructions, Executor),
     statistics: &mut Statistics,
-    sink: Sink,
+    sink: AdjacentSink<S>,
 ) -> ControlFlow<()> {
     statistics.body_pairs += 1;
     let Some(starred) = body.starred(threads) else {

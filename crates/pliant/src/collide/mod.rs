@@ -8,6 +8,7 @@
 //! - `witness`: the last first pair, tested before anything else.
 //! - `close`, `distance`: close pairs measured; the distance of bodies.
 //! - `impacts`: the first contact of a motion, and how far everything may move.
+//! - `crossing_edges`: edges that cross triangles, from pairs of triangles.
 //! - `adjacent`: triangles with a vertex in common, body by body.
 //! - `origin`: the point that boxes are relative to.
 
@@ -16,6 +17,7 @@ mod answer;
 mod asked;
 mod body_pairs;
 mod close;
+mod crossing_edges;
 mod distance;
 mod impacts;
 mod origin;
@@ -28,6 +30,7 @@ pub(crate) use adjacent::AskedAdjacent;
 pub(crate) use asked::{Asked, Common};
 pub(crate) use body_pairs::BodyPairs;
 pub(crate) use close::InBodies;
+pub(crate) use crossing_edges::AskedCrossing;
 pub(crate) use distance::{Distances, check, in_common, others_by_gap};
 pub(crate) use impacts::{AskedImpacts, OfKind};
 pub(crate) use origin::FloatingOrigin;

@@ -12,7 +12,7 @@ use crate::held::{self, Held};
 use crate::ids::BodyId;
 use crate::ids::TreeTriangle;
 use crate::kernels::Coordinate;
-use crate::queries::{CallerIds, Candidate, Intersections, Kind, Pair};
+use crate::queries::{CallerIds, Candidate, Intersections, Kind, OwnEdges, Pair};
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
 use pliant_exact::{Triangle, intersect};
@@ -64,6 +64,7 @@ pub(crate) fn pair_of<S: Coordinate>(both: [&Body<S>; 2], found: Candidate) -> P
         edges: [&[]; 2],
         bodies: both.map(Body::id),
         orders: both.map(|body| body.mesh().order()),
+        meshes: both.map(|body| body.mesh() as &dyn OwnEdges),
     };
     Intersections::<S>::default().to_caller(&ids, found)
 }

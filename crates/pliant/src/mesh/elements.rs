@@ -9,11 +9,11 @@
 mod edge_index;
 mod follow;
 
-use super::edges::{SortedEdges, UNINTERRUPTED};
+use super::edges::{SortedEdges, UNINTERRUPTED, firsts_of, number_of, sides};
 use super::{Order, Topology};
 use crate::held::{self, held};
-use crate::ids::{TreeTriangle, TreeVertex};
-use edge_index::EdgeIndex;
+use crate::ids::{CallerTriangle, TreeTriangle, TreeVertex};
+use edge_index::{EdgeIndex, UNSEEN};
 pub(crate) use follow::Changed;
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -34,6 +34,8 @@ pub(crate) struct Elements {
     firsts: Vec<[u32; 2]>,
     /// Number in tree order of each of the caller's vertices; made when first asked for.
     tree_vertices: OnceLock<Box<[TreeVertex]>>,
+    /// Where edges with each lower end begin, in the caller's numbers. Made when first asked for.
+    firsts_at: OnceLock<Vec<u32>>,
     /// Index for edits, once the mesh is edited.
     index: Option<Box<EdgeIndex>>,
 }
@@ -51,6 +53,7 @@ impl Elements {
             numbers: Vec::with_capacity(callers.edges.len()),
             firsts: Vec::with_capacity(triangles.len() + 1),
             tree_vertices: OnceLock::new(),
+            firsts_at: OnceLock::new(),
             index: None,
         };
         let mut is_given = vec![false; callers.edges.len()];
@@ -146,6 +149,45 @@ impl Elements {
         })
     }
 
+    /// Returns the edges of a triangle, from each corner to the next, all by the caller's numbers.
+    /// None where the two corners are one vertex.
+    pub(crate) fn sides(&self, topology: &Topology, triangle: u32) -> [Option<u32>; 3] {
+        if let Some(index) = &self.index {
+            let of_triangle = index.of_triangles[triangle as usize];
+            return of_triangle.map(|number| (number != UNSEEN).then_some(number));
+        }
+        let firsts = self
+            .firsts_at
+            .get_or_init(|| firsts_of(&self.callers, topology.vertex_count()));
+        let corners = topology.corners(CallerTriangle(triangle)).map(|it| it.0);
+        sides(corners).map(|ends| number_of(&self.callers, firsts, ends))
+    }
+
+    /// Returns the edge from a corner of a triangle to the next, by the caller's number. None if an
+    /// earlier triangle in tree order has the edge too.
+    pub(crate) fn own_edge(
+        &self,
+        order: &Order,
+        triangle: TreeTriangle,
+        corner: usize,
+    ) -> Option<u32> {
+        let corners = order.corners(triangle);
+        let side = |[i, j]: [usize; 2]| [corners[i].min(corners[j]), corners[i].max(corners[j])];
+        let wanted = side(SIDES[corner]);
+        let run = TriangleRun {
+            first: triangle,
+            count: 1,
+        };
+        // A triangle that has a vertex twice has an edge there and back.
+        let is_first = SIDES[..corner].iter().all(|&other| side(other) != wanted);
+        let mut own = self.edges_of(run).filter(|_| is_first);
+        let own = own.find(|&edge| {
+            let [p, q] = self.ends[edge as usize];
+            [p.min(q), p.max(q)] == wanted
+        });
+        own.map(|edge| self.numbers[edge as usize])
+    }
+
     /// Finds an edge whose recorded ends in tree order are wrong; `place` gives the true ones.
     /// Returns its caller's number.
     pub(crate) fn misplaced(&self, place: impl Fn(u32) -> TreeVertex) -> Option<u32> {
@@ -194,6 +236,7 @@ impl TriangleRun {
 
 held!(Elements: callers[], ends[], numbers[], firsts[];
     |elements| held::boxes(&elements.index)
+        + elements.firsts_at.get().map_or(0, held::list)
         + elements.tree_vertices.get().map_or(0, |all| size_of_val(&**all)));
 
 #[cfg(test)]

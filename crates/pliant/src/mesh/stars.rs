@@ -20,7 +20,7 @@ const UNINTERRUPTED: usize = 1 << 14;
 /// Fewest vertices of a run whose links are made together.
 const FEWEST: usize = 1 << 14;
 /// Most runs, as each goes over all triangles.
-const MOST_RUNS: usize = 8;
+const MOST_RUNS: usize = 16;
 
 impl Stars {
     /// Finds the stars of all vertices, a run of vertices at a time, so that little memory is
@@ -38,22 +38,22 @@ impl Stars {
         for (run, first) in records.chunks_mut(size).zip((0..).step_by(size)) {
             let vertices = first..first + run.len();
             ends.clear();
-            ends.resize(run.len() + 1, 0_usize);
+            ends.resize(run.len() + 1, 0_u32);
             each_corner(triangles, &vertices, stop, |place, _| ends[place + 1] += 1)?;
             for at in 1..ends.len() {
                 ends[at] += ends[at - 1];
             }
             links.clear();
-            links.resize(ends[run.len()], [0; 2]);
+            links.resize(ends[run.len()] as usize, [0; 2]);
             // Each link is filled from its beginning, which becomes its end.
             each_corner(triangles, &vertices, stop, |place, corners| {
-                links[ends[place]] = opposite(corners, (first + place) as u32);
+                links[ends[place] as usize] = opposite(corners, (first + place) as u32);
                 ends[place] += 1;
             })?;
             let mut begin = 0;
             for (place, (record, &end)) in run.iter_mut().zip(&ends).enumerate() {
-                *record = record_of(&mut links[begin..end], &mut scratch);
-                begin = end;
+                *record = record_of(&mut links[begin..end as usize], &mut scratch);
+                begin = end as usize;
                 if place % UNINTERRUPTED == 0 && stop() {
                     return None;
                 }

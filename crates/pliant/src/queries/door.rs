@@ -229,10 +229,25 @@ pub(crate) struct LeafTest<'q, S> {
     pub(crate) is_one_tree: bool,
 }
 
+/// A mesh, as kinds see the edges of its triangles.
+pub(crate) trait OwnEdges: Sync {
+    /// The edge from a corner of a triangle to the next, by the caller's number.
+    ///
+    /// Of the triangles at an edge one has it as its own; for the others it is none. Edges are
+    /// numbered the first time, unless `stop` interrupts that.
+    fn own_edge(
+        &self,
+        triangle: TreeTriangle,
+        corner: usize,
+        stop: &dyn Fn() -> bool,
+    ) -> Option<u32>;
+}
+
 /// Translation of tree order to the caller's numbers.
 pub(crate) struct CallerIds<'q> {
     pub(crate) bodies: [BodyId; 2],
     pub(crate) orders: [&'q Order; 2],
+    pub(crate) meshes: [&'q dyn OwnEdges; 2],
     /// The caller's numbers of edges, for kinds that look at edges; else empty.
     pub(crate) edges: [&'q [u32]; 2],
 }

@@ -9,6 +9,7 @@
 //! | `intersections` | triangles that intersect, decided exactly | of the shape |
 //! | `contacts` | intersections with their kinds | of the shape |
 //! | `adjacent` | triangles that share a vertex and meet beyond it; no leaves | none |
+//! | `crossing_edges` | edges that cross triangles, from pairs that intersect | none |
 //! | `candidates` | vertices and triangles, or edges, within a margin | of the motion, grown |
 //! | `close` | elements or triangles within a distance, measured | of motion or shape, grown |
 //! | `impacts` | elements that meet during a motion, and when first | of the motion, grown |
@@ -17,6 +18,7 @@ mod adjacent;
 mod candidates;
 mod close;
 mod contacts;
+mod crossing_edges;
 mod door;
 mod impacts;
 mod intersections;
@@ -28,20 +30,22 @@ pub(crate) mod hits {
     pub use super::candidates::{EdgeEdge, VertexTriangle};
     pub use super::close::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, ClosestFeatures};
     pub use super::contacts::{Contact, ContactKind};
+    pub use super::crossing_edges::CrossingEdge;
     pub use super::impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
     pub use super::intersections::Pair;
 }
 
-pub(crate) use adjacent::{AdjacentSearch, StarredBody};
+pub(crate) use adjacent::{AdjacentSearch, AdjacentSink, StarredBody, TreeAdjacent};
 pub(crate) use candidates::{Candidates, EdgeEdgeCandidates, Margin, VertexTriangleCandidates};
 pub(crate) use close::{
     Close, Measurable, NearTriangles, NearestPair, close, closest_of_triangles, corners_of,
     measure_all,
 };
 pub(crate) use contacts::Contacts;
+pub(crate) use crossing_edges::CrossingEdges;
 pub(crate) use door::{
     Batch, BodyBoxes, BoxSetNumber, CallerIds, Candidate, Found, FoundBy, Kind, LeafTest, LeafWork,
-    Needs, OF_GROWN_SHAPES, OF_MOTIONS, OF_SHAPES, Reach, Shown, shows_hits,
+    Needs, OF_GROWN_SHAPES, OF_MOTIONS, OF_SHAPES, OwnEdges, Reach, Shown, shows_hits,
 };
 pub(crate) use hits::*;
 pub(crate) use impacts::{Earliest, First, Impacts, LIMIT};

@@ -4,7 +4,7 @@ use crate::geometry::Points;
 use crate::ids::{BodyId, NodeId};
 use crate::kernels::Coordinate;
 use crate::mesh::Order;
-use crate::queries::{CallerIds, NearElements, Removed};
+use crate::queries::{CallerIds, NearElements, OwnEdges, Removed};
 use crate::tree::{BoxSet, BoxedTree, Source, Tree};
 use crate::update::Refitted;
 
@@ -12,6 +12,7 @@ use crate::update::Refitted;
 pub(crate) struct Read<'t, S> {
     pub(crate) body: BodyId,
     pub(crate) order: &'t Order,
+    pub(crate) mesh: &'t dyn OwnEdges,
     pub(crate) tree: &'t Tree,
     pub(crate) source: Source<'t, S>,
     /// Positions at the end of the motion, for kinds that look along motions.
@@ -179,6 +180,7 @@ impl<'v, S: Coordinate> Views<'v, S> {
         CallerIds {
             bodies: [a.body, b.body],
             orders: [a.order, b.order],
+            meshes: [a.mesh, b.mesh],
             edges: [a.caller_edges(), b.caller_edges()],
         }
     }

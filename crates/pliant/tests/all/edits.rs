@@ -4,8 +4,8 @@
 
 use crate::common::{Lcg, every_configuration, share, sheet};
 use pliant::{
-    AdjacentContact, BodyId, ContactKind, EdgeEdge, Edit, Edited, Options, Pair, Scalar, Selection,
-    VertexTriangle, World,
+    AdjacentContact, BodyId, ContactKind, CrossingEdge, EdgeEdge, Edit, Edited, Options, Pair,
+    Scalar, Selection, VertexTriangle, World,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -120,6 +120,7 @@ impl Number for f64 {
 struct Answers {
     intersections: BTreeSet<[u32; 4]>,
     adjacent: BTreeSet<([u32; 4], ContactKind)>,
+    crossing_edges: BTreeSet<[u32; 5]>,
     vertex_triangle: BTreeSet<[u32; 4]>,
     edge_edge: BTreeSet<[u32; 6]>,
     close_vertex_triangle: BTreeSet<[u32; 4]>,
@@ -148,6 +149,7 @@ impl Answers {
         compare!(
             intersections,
             adjacent,
+            crossing_edges,
             vertex_triangle,
             edge_edge,
             close_vertex_triangle,
@@ -213,6 +215,22 @@ fn ask<S: Number>(
     assert!(found.is_sorted_by(|a, b| a < b));
     let row = |it: &AdjacentContact| (of_triangles(it.pair.into()), it.kind);
     answers.adjacent = found.iter().map(row).collect();
+    let found = world.crossing_edges(of).all().unwrap();
+    assert!(found.is_sorted_by(|a, b| a < b));
+    let row = |it: &CrossingEdge| {
+        let ends = all_edges[it.edge_body.0 as usize][it.edge as usize];
+        let mut ends = ends.map(|end| vertex(it.edge_body, end));
+        ends.sort_unstable();
+        let (body, other) = (it.edge_body.0, it.triangle_body);
+        [
+            body,
+            ends[0],
+            ends[1],
+            other.0,
+            triangle(other, it.triangle),
+        ]
+    };
+    answers.crossing_edges = found.iter().map(row).collect();
     let found = world.vertex_triangle_candidates(of, radius).all().unwrap();
     assert!(found.is_sorted_by(|a, b| a < b));
     answers.vertex_triangle = found.iter().map(|&pair| of_vertex(pair)).collect();

@@ -20,6 +20,7 @@ mod cloth_on_ball;
 mod configurations;
 mod connectivity;
 mod contacts;
+mod crossing_edges;
 mod distances;
 mod edits;
 mod edits_refused;

@@ -37,7 +37,8 @@ use super::tally::Tally;
 use crate::check::arguments::{Arguments, Split};
 use crate::check::names::Names;
 use pliant_check::{
-    Adjacent, Baseline, Check, FirstImpact, Found, Group, Impact, Interval, Kinds, Life, Place,
+    Adjacent, Baseline, Check, CrossingEdges, FirstImpact, Found, Group, Impact, Interval, Kinds,
+    Life, Place,
 };
 use pliant_io::Body as Source;
 use serde::Serialize;
@@ -172,6 +173,14 @@ struct FrameEntry<'a> {
     adjacent: Option<usize>,
     #[serde(flatten)]
     of_adjacent: Option<AdjacentEntry<'a>>,
+    /// Edges that cross triangles: body of the edges, body of the triangles, number of different
+    /// edges, number of pairs of an edge and a triangle.
+    ///
+    /// The open edge meets the open triangle, and not in its plane. An edge between two bodies of a
+    /// file is of both. `ignore` leaves bodies out, and nothing else does. Absent with `--first`
+    /// and `--within`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    crossing_edges: Option<Vec<(u32, u32, usize, usize)>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     places: Option<Vec<PlaceEntry>>,
 }
@@ -492,6 +501,10 @@ impl Form for Json {
             degenerate: found.degenerate,
             pairs: (!self.count_only).then_some(&found.pairs),
             adjacent: adjacent.map(|adjacent| adjacent.count),
+            crossing_edges: found.crossing_edges.as_ref().map(|counts| {
+                let row = |it: &CrossingEdges| (it.edge_body, it.triangle_body, it.edges, it.pairs);
+                counts.iter().map(row).collect()
+            }),
             of_adjacent: adjacent.map(|it| AdjacentEntry::of(it, self.count_only)),
             places: places.map(|places| places.iter().map(PlaceEntry::of).collect()),
         };

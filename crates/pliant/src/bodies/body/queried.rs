@@ -8,7 +8,7 @@ use crate::geometry::{Origin, Points};
 use crate::ids::BodyId;
 use crate::kernels::Coordinate;
 use crate::mesh::{Elements, Order};
-use crate::queries::{Groups, NearBoxes, NearElements, Needs, Removed};
+use crate::queries::{Groups, NearBoxes, NearElements, Needs, OwnEdges, Removed};
 use crate::traversal::Read;
 use crate::tree::{Source, Tree};
 
@@ -16,6 +16,7 @@ use crate::tree::{Source, Tree};
 pub(super) struct Queried<'b, S> {
     body: BodyId,
     order: &'b Order,
+    mesh: &'b dyn OwnEdges,
     source: Source<'b, S>,
     motion: Option<&'b Points<S>>,
     elements: Option<&'b Elements>,
@@ -41,6 +42,7 @@ impl<'b, S: Coordinate> Queried<'b, S> {
         Self {
             body: mesh.body(),
             order,
+            mesh,
             source: Source::new(shape.view(order, origin), end, needs.grows_by),
             motion: way.map(|(way, reach)| way.going(reach)),
             elements: mesh.known_elements().filter(|_| !needs.triangles()),
@@ -56,6 +58,7 @@ impl<'b, S: Coordinate> Queried<'b, S> {
         Read {
             body: self.body,
             order: self.order,
+            mesh: self.mesh,
             tree,
             source: self.source,
             motion: self.motion,

@@ -17,7 +17,7 @@ mod sector;
 
 use self::one_way::{Wing, is_seen_without_overlaps};
 use self::sector::Sector;
-use super::{ContactKind, Pair, Removed};
+use super::{ContactKind, CrossingEdge, OwnEdges, Pair, Removed};
 use crate::geometry::{Real, Shape};
 use crate::held::{self, held};
 use crate::ids::{BodyId, TreeTriangle, TreeVertex};
@@ -28,7 +28,7 @@ use crate::mesh::{Order, Stars, opposite};
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Grain, PerThread};
 pub use hit::AdjacentContact;
-use pliant_exact::adjacent_contact;
+use pliant_exact::{adjacent_contact, crossing_edges};
 use std::ops::{ControlFlow, Range};
 
 /// Vertices whose pairs are decided before hits are handed over.
@@ -45,8 +45,20 @@ pub(crate) struct StarredBody<'q, S> {
     pub(crate) shape: Shape<'q, S>,
     pub(crate) order: &'q Order,
     pub(crate) removed: Option<Removed<'q>>,
+    pub(crate) mesh: &'q dyn OwnEdges,
     pub(crate) stars: &'q Stars,
 }
+
+/// Adjacent contact of two triangles, in tree order.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TreeAdjacent {
+    triangles: [TreeTriangle; 2],
+    kind: ContactKind,
+}
+
+/// Sink of the hits of a body.
+pub(crate) type AdjacentSink<'s, S> =
+    &'s mut dyn FnMut(&StarredBody<S>, &[TreeAdjacent]) -> ControlFlow<()>;
 
 /// Scratch memory of a search, kept from query to query. Vertices and triangles are in tree order.
 #[derive(Debug, Default)]
@@ -83,7 +95,7 @@ struct Job {
     wings: Vec<Wing>,
     /// Boxes of directions of the triangles of a large star, in order.
     sectors: Vec<Sector>,
-    hits: Vec<AdjacentContact>,
+    hits: Vec<TreeAdjacent>,
     candidates: u64,
     exact: u64,
 }
@@ -103,7 +115,7 @@ impl AdjacentSearch {
         only: Option<ContactKind>,
         (instructions, executor): (Instructions, Executor),
         statistics: &mut Statistics,
-        sink: &mut dyn FnMut(&[AdjacentContact]) -> ControlFlow<()>,
+        sink: AdjacentSink<S>,
     ) -> ControlFlow<()> {
         self.count_stars(body, instructions, executor);
         self.see_along_axes(body, instructions, executor);
@@ -127,7 +139,7 @@ impl AdjacentSearch {
                 return ControlFlow::Break(());
             }
             for job in &mut self.jobs[..some.len().div_ceil(OF_A_JOB)] {
-                job.hand_over(statistics, sink)?;
+                job.hand_over(body, statistics, sink)?;
             }
             // The hits of a large star are handed over on the way.
             for left in some.iter().filter(|left| left.is_large()) {
@@ -138,7 +150,7 @@ impl AdjacentSearch {
                     if executor.is_interrupted() {
                         return ControlFlow::Break(());
                     }
-                    job.hand_over(statistics, sink)
+                    job.hand_over(body, statistics, sink)
                 })?;
             }
         }
@@ -436,21 +448,22 @@ impl Job {
         let numbers = [of_a, of_b].map(|corners| corners.map(|it| it.0));
         let kind = adjacent_contact(S::PRECISION, numbers, &at_a, &at_b, &mut self.exact);
         if let Some(kind) = kind.filter(|kind| of.only.is_none_or(|only| only == *kind)) {
-            let pair = body.pair(a, b);
-            self.hits.push(AdjacentContact { pair, kind });
+            let triangles = [a, b].map(TreeTriangle);
+            self.hits.push(TreeAdjacent { triangles, kind });
         }
     }
 
     /// Hands hits and counters over.
-    fn hand_over(
+    fn hand_over<S: Coordinate>(
         &mut self,
+        body: &StarredBody<S>,
         statistics: &mut Statistics,
-        sink: &mut dyn FnMut(&[AdjacentContact]) -> ControlFlow<()>,
+        sink: AdjacentSink<S>,
     ) -> ControlFlow<()> {
         statistics.candidate_pairs += self.candidates;
         statistics.exact_decisions += self.exact;
         statistics.pairs += self.hits.len() as u64;
-        let flow = sink(&self.hits);
+        let flow = sink(body, &self.hits);
         self.clear();
         flow
     }
@@ -488,14 +501,37 @@ impl<S: Coordinate> StarredBody<'_, S> {
         self.removed.is_some_and(|removed| removed.has(triangle))
     }
 
-    /// Two triangles, by the caller's numbers.
-    fn pair(&self, a: u32, b: u32) -> Pair {
-        let [a, b] = [a, b].map(|it| self.order.caller_triangle(TreeTriangle(it)).0);
-        Pair {
+    /// A hit by the caller's numbers.
+    pub(crate) fn to_caller(&self, hit: &TreeAdjacent) -> AdjacentContact {
+        let [a, b] = hit.triangles.map(|it| self.order.caller_triangle(it).0);
+        let pair = Pair {
             body_a: self.body,
             triangle_a: a.min(b),
             body_b: self.body,
             triangle_b: a.max(b),
+        };
+        AdjacentContact {
+            pair,
+            kind: hit.kind,
+        }
+    }
+
+    /// Appends the edges of the two triangles of a hit that cross the other.
+    pub(crate) fn cross(&self, hit: &TreeAdjacent, list: &mut Vec<CrossingEdge>) {
+        let [a, b] = hit.triangles.map(|it| self.shape.corners(it));
+        let crossing = crossing_edges(S::PRECISION, &a, &b);
+        for (of, corner) in (0..6).map(|edge| (edge / 3, edge % 3)) {
+            if crossing[of][corner]
+                && let Some(edge) = self.mesh.own_edge(hit.triangles[of], corner, &|| false)
+            {
+                let other = self.order.caller_triangle(hit.triangles[1 - of]);
+                list.push(CrossingEdge {
+                    edge_body: self.body,
+                    edge,
+                    triangle_body: self.body,
+                    triangle: other.0,
+                });
+            }
         }
     }
 }

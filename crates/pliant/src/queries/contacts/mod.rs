@@ -42,8 +42,8 @@ pub(crate) struct TreeContact {
 /// Scratch memory of a task: pairs that intersect, before their kind is known.
 #[derive(Debug, Default)]
 pub(crate) struct ContactBuffers {
-    undecided: Undecided,
-    pairs: Buffer<Candidate>,
+    pub(in crate::queries) undecided: Undecided,
+    pub(in crate::queries) pairs: Buffer<Candidate>,
 }
 
 impl<S: Coordinate> Kind for Contacts<S> {

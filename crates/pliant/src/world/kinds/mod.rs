@@ -20,6 +20,8 @@ macro_rules! every_kind {
                 => $crate::queries::Contact: contacts(of);
             adjacent: $crate::collide::AskedAdjacent
                 => $crate::queries::AdjacentContact: adjacent_intersections(of);
+            crossing_edges: $crate::collide::AskedCrossing<S>
+                => $crate::queries::CrossingEdge: crossing_edges(of);
             vertex_triangle: $crate::collide::Asked<$crate::queries::VertexTriangleCandidates<S>>
                 => $crate::queries::VertexTriangle: vertex_triangle_candidates(of, length);
             edge_edge: $crate::collide::Asked<$crate::queries::EdgeEdgeCandidates<S>>
@@ -49,6 +51,8 @@ mod contacts;
 
 mod adjacent;
 
+mod crossing_edges;
+
 mod candidates;
 
 mod close;
@@ -64,6 +68,7 @@ pub(crate) mod reference {
     pub use super::close::reference::*;
     pub use super::close_triangles::reference::*;
     pub use super::contacts::reference::*;
+    pub use super::crossing_edges::reference::*;
     pub use super::impacts::reference::*;
     pub use super::intersections::reference::*;
 }

@@ -14,8 +14,8 @@ recorded=benchmarks/instructions.txt
 found=$(mktemp)
 trap 'rm -f "$found"' EXIT
 
-# What each asks is in crates/pliant-bench/examples/windows.rs. `double` is a body with itself in f64; `two` and `four` are degrees.
-for window in deepest cloth small crowd contacts near close meet earliest apart double two four; do
+# What each asks is in crates/pliant-bench/examples/windows.rs. `double` is a body with itself in f64; `two` and `four` are degrees; `star` is triangles that share a vertex.
+for window in deepest cloth small crowd contacts near close meet earliest apart double two four star edges; do
     # Only what the library does between the call that brings positions and the answer.
     count=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null \
         --toggle-collect='windows::one_step' \

@@ -38,9 +38,13 @@ enum Ask {
     /// Impacts on the way to the next step; and only the first.
     Meet,
     Earliest,
+    /// Triangles of a body that share a vertex and meet beyond it.
+    Adjacent,
+    /// Edges that cross triangles.
+    Edges,
 }
 
-const WINDOWS: [Window; 25] = [
+const WINDOWS: [Window; 31] = [
     ("easy", "spheres", 20_480, 1..=50, Ask::All),
     ("hard", "spheres", 20_480, 150..=200, Ask::All),
     ("deepest", "spheres", 20_480, 200..=200, Ask::All),
@@ -64,6 +68,12 @@ const WINDOWS: [Window; 25] = [
     ("earlier", "spheres", 20_480, 118..=120, Ask::Earliest),
     ("contacts", "spheres", 20_480, 200..=200, Ask::Contacts),
     ("double", "cloth", 79_202, 43..=45, Ask::Itself),
+    ("sphere", "spheres", 20_480, 100..=105, Ask::Itself),
+    ("star", "spheres", 20_480, 100..=105, Ask::Adjacent),
+    ("flatstar", "cloth", 79_202, 1..=20, Ask::Adjacent),
+    ("foldstar", "cloth", 79_202, 35..=50, Ask::Adjacent),
+    ("doubstar", "cloth", 79_202, 43..=45, Ask::Adjacent),
+    ("edges", "spheres", 20_480, 200..=200, Ask::Edges),
     ("two", "spheres", 20_480, 200..=200, Ask::All),
     ("four", "spheres", 20_480, 200..=200, Ask::All),
 ];
@@ -92,7 +102,7 @@ fn main() {
         .collect();
     for window in WINDOWS {
         if named.is_empty() || named.contains(&window.0) {
-            if window.0 == "double" {
+            if matches!(window.0, "double" | "doubstar") {
                 play::<f64>(window, rounds);
             } else {
                 play::<f32>(window, rounds);
@@ -240,6 +250,17 @@ fn one_step<S: Scalar>(
             let found = met.expect("the world is there").len();
             let met = world.edge_edge_impacts(of).all();
             found + met.expect("the world is there").len()
+        }
+        Ask::Adjacent => bodies
+            .iter()
+            .map(|&body| {
+                let contacts = world.adjacent_intersections(Selection::Within(body)).all();
+                contacts.expect("the world is there").len()
+            })
+            .sum(),
+        Ask::Edges => {
+            let edges = world.crossing_edges(Selection::World).all();
+            edges.expect("the world is there").len()
         }
         Ask::Earliest => {
             let first = world.first_impact(Selection::Everything, 1e-6);

@@ -15,6 +15,7 @@ mod orientation;
 mod point;
 pub mod reference;
 mod ring;
+mod segment;
 mod triangles;
 mod vector;
 
@@ -29,6 +30,7 @@ pub use gap::are_boxes_within;
 use lattice::{Lattice, on_lattice};
 use orientation::{Filtered, Orientation};
 pub use point::{Point, Triangle};
+pub use segment::{End, Feature, segment};
 use std::cmp::Ordering;
 
 /// Whether a triangle has no area: its corners lie on a line, or in a point.

@@ -5,19 +5,19 @@
 //! ones that both triangles hold span it.
 
 /// A point as a fraction: three numerators, and one positive denominator.
-type Fraction = ([i128; 3], i128);
+pub(super) type Fraction = ([i128; 3], i128);
 
-type Corners = [[i128; 3]; 3];
+pub(super) type Corners = [[i128; 3]; 3];
 
-fn minus(a: [i128; 3], b: [i128; 3]) -> [i128; 3] {
+pub(super) fn minus(a: [i128; 3], b: [i128; 3]) -> [i128; 3] {
     std::array::from_fn(|axis| a[axis] - b[axis])
 }
 
-fn dot(a: [i128; 3], b: [i128; 3]) -> i128 {
+pub(super) fn dot(a: [i128; 3], b: [i128; 3]) -> i128 {
     (0..3).map(|axis| a[axis] * b[axis]).sum()
 }
 
-fn cross(a: [i128; 3], b: [i128; 3]) -> [i128; 3] {
+pub(super) fn cross(a: [i128; 3], b: [i128; 3]) -> [i128; 3] {
     std::array::from_fn(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         a[j] * b[k] - a[k] * b[j]
@@ -25,7 +25,7 @@ fn cross(a: [i128; 3], b: [i128; 3]) -> [i128; 3] {
 }
 
 /// Whether a closed segment holds a point.
-fn segment_holds([p, q]: [[i128; 3]; 2], (x, d): Fraction) -> bool {
+pub(super) fn segment_holds([p, q]: [[i128; 3]; 2], (x, d): Fraction) -> bool {
     let scaled = |corner: [i128; 3]| corner.map(|value| value * d);
     let (p, q) = (scaled(p), scaled(q));
     let along = minus(q, p);
@@ -37,7 +37,7 @@ fn segment_holds([p, q]: [[i128; 3]; 2], (x, d): Fraction) -> bool {
 }
 
 /// Whether a closed triangle, or the segment or point that it is, holds a point.
-fn holds([a, b, c]: Corners, (x, d): Fraction) -> bool {
+pub(super) fn holds([a, b, c]: Corners, (x, d): Fraction) -> bool {
     let normal = cross(minus(b, a), minus(c, a));
     if normal == [0; 3] {
         return [[a, b], [b, c], [c, a]]
@@ -66,7 +66,7 @@ fn on_plane([p, q]: [[i128; 3]; 2], normal: [i128; 3], origin: [i128; 3]) -> Opt
 }
 
 /// Points of a pair of triangles that may be corners of what they have in common.
-fn candidates(a: Corners, b: Corners) -> Vec<Fraction> {
+pub(super) fn candidates(a: Corners, b: Corners) -> Vec<Fraction> {
     let edges = |[p, q, r]: Corners| [[p, q], [q, r], [r, p]];
     let mut all: Vec<Fraction> = a.iter().chain(&b).map(|&corner| (corner, 1)).collect();
     for (one, other) in [(a, b), (b, a)] {

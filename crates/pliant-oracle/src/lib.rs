@@ -25,6 +25,7 @@ mod hull;
 mod integers;
 mod motion;
 mod pairs;
+mod segment;
 
 pub use adjacent::adjacent_contact;
 pub use distance::{compare_distance, compare_dot, compare_length};
@@ -34,6 +35,7 @@ pub use motion::{
     motion_fits_f32,
 };
 pub use pairs::{Class, Random, element_pairs, fits_f32};
+pub use segment::segment;
 
 use hull::{cross, determinant, minus, zero_in_hull, zero_inside, zero_inside_of_plane};
 use integers::{Exact, Scaled, Vector, scale};

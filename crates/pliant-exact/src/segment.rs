@@ -2,8 +2,8 @@
 //!
 //! Idea: both triangles meet the line of the two planes in a segment each, and have the overlap of
 //! these in common. Ends are compared along the line by orientations of edges alone. So it is exact
-//! on which corner, edge or inside an end lies; only coordinates are rounded. Source: the interval test of Guigue and Devillers (2003), with all that
-//! is degenerate.
+//! on which corner, edge or inside an end lies; only coordinates are rounded. Source: the interval
+//! test of Guigue and Devillers (2003), with all that is degenerate.
 
 use super::environment::Precision;
 use super::float::scaled;

@@ -14,7 +14,7 @@ recorded=benchmarks/instructions.txt
 found=$(mktemp)
 trap 'rm -f "$found"' EXIT
 
-# What each asks is in crates/pliant-bench/examples/windows.rs. `double` is a body with itself in f64; `two` and `four` are degrees; `star` is triangles that share a vertex.
+# What each asks is in crates/pliant-bench/examples/windows.rs. `double` is a body with itself in f64; `two` and `four` are degrees; `star` is a body with itself, those that share a vertex too.
 for window in deepest cloth small crowd contacts near close meet earliest apart double two four star edges; do
     # Only what the library does between the call that brings positions and the answer.
     count=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null \

@@ -38,7 +38,7 @@ enum Ask {
     /// Impacts on the way to the next step; and only the first.
     Meet,
     Earliest,
-    /// Triangles of a body that share a vertex and meet beyond it.
+    /// As itself, and then triangles that share a vertex and meet beyond it.
     Adjacent,
     /// Edges that cross triangles.
     Edges,
@@ -254,8 +254,10 @@ fn one_step<S: Scalar>(
         Ask::Adjacent => bodies
             .iter()
             .map(|&body| {
-                let contacts = world.adjacent_intersections(Selection::Within(body)).all();
-                contacts.expect("the world is there").len()
+                let of = Selection::Within(body);
+                let pairs = all(world, of);
+                let contacts = world.adjacent_intersections(of).all();
+                pairs + contacts.expect("the world is there").len()
             })
             .sum(),
         Ask::Edges => {

@@ -2,9 +2,9 @@
 
 use super::environment::Precision;
 use super::lattice::{Lattice, on_lattice};
-use super::orientation::{Filtered, Orientation};
+use super::orientation::{Certain, Filtered, Orientation};
 use super::point::{Sign, Triangle};
-use super::triangles::{edge, one_side, plane_signs};
+use super::triangles::{one_side, plane_signs};
 
 /// Which edges of each triangle cross the other: the open edge meets the open triangle, and not in
 /// its plane.
@@ -24,6 +24,12 @@ use super::triangles::{edge, one_side, plane_signs};
 /// assert_eq!(crossing(0.0), [[false; 3]; 2]);
 /// ```
 pub fn crossing_edges(precision: Precision, a: &Triangle, b: &Triangle) -> [[bool; 3]; 2] {
+    // Triangles that cross are mostly in general position.
+    let mut certain = Certain::new(precision);
+    let found = of_both(a, b, &mut certain);
+    if certain.are_all() {
+        return found;
+    }
     match on_lattice(a, b) {
         Some([a, b]) => of_both(&a, &b, &mut Lattice),
         None => of_both(a, b, &mut Filtered::new(precision)),
@@ -53,18 +59,24 @@ fn crossing(
     other: &Triangle,
     orientation: &mut impl Orientation,
 ) -> [bool; 3] {
-    [0, 1, 2].map(|i| {
-        edge(&sides, i).iter().product::<Sign>() < 0 && {
-            let [p, q] = edge(triangle, i);
-            let lines = [0, 1, 2].map(|j| edge(other, j));
-            one_side(lines.map(|[r, s]| orientation.sign(&p, &q, &r, &s)))
+    let mut crossing = [false; 3];
+    for i in 0..3 {
+        let next = (i + 1) % 3;
+        if sides[i] * sides[next] >= 0 {
+            continue;
         }
-    })
+        let (p, q) = (&triangle[i], &triangle[next]);
+        let mut past = |j: usize| orientation.sign(p, q, &other[j], &other[(j + 1) % 3]);
+        let first = past(0);
+        crossing[i] = first != 0 && past(1) == first && past(2) == first;
+    }
+    crossing
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::orientation::Exact;
+    use super::super::triangles::edge;
     use super::*;
     use pliant_oracle::{Class, ContactKind, Random, contact_kind};
 

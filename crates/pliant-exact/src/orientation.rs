@@ -112,9 +112,10 @@ impl Filtered {
 /// whose error grows with the distance from the origin.
 const RELATIVE_ERROR: f64 = 9.0 * U;
 
-impl Orientation for Filtered {
+impl Filtered {
+    /// The sign, if the filter is certain of it.
     #[inline]
-    fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
+    fn certain_sign(&self, a: &Point, b: &Point, c: &Point, d: &Point) -> Option<Sign> {
         let [e1, e2, t] = [b, c, d].map(|p| minus(p, a));
         let (mut determinant, mut magnitude) = (0.0, 0.0);
         for i in 0..3 {
@@ -125,10 +126,44 @@ impl Orientation for Filtered {
         }
         let reach = t[0].abs() + t[1].abs() + t[2].abs() + 1.0;
         if determinant.abs() > RELATIVE_ERROR * magnitude + self.underflow * reach {
-            return sign_of(determinant);
+            return Some(sign_of(determinant));
         }
-        self.uncertain = true;
-        Exact.sign(a, b, c, d)
+        None
+    }
+}
+
+impl Orientation for Filtered {
+    #[inline]
+    fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
+        self.certain_sign(a, b, c, d).unwrap_or_else(|| {
+            self.uncertain = true;
+            Exact.sign(a, b, c, d)
+        })
+    }
+}
+
+/// The filter alone, which gives any sign where it is not certain, and remembers that.
+pub(super) struct Certain(Filtered);
+
+impl Certain {
+    /// For input of this type.
+    pub(super) fn new(precision: Precision) -> Self {
+        Self(Filtered::new(precision))
+    }
+
+    /// Whether all signs so far were certain.
+    pub(super) fn are_all(&self) -> bool {
+        !self.0.uncertain
+    }
+}
+
+impl Orientation for Certain {
+    #[inline]
+    fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
+        self.0.certain_sign(a, b, c, d).unwrap_or_else(|| {
+            self.0.uncertain = true;
+            0
+        })
     }
 }
 

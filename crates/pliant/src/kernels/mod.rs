@@ -56,5 +56,5 @@ pub use instructions::Instructions;
 pub(crate) use instructions::{Set, dispatch, with_baseline};
 pub(crate) use quantized::{FARTHEST, QuantizedLanes, QuantizedRows, quantize};
 pub(crate) use stars::{
-    CLOSED, MOST_COUNTED, StarCounts, StarRecord, count_stars, mark_overlapping_stars,
+    CLOSED, StarCounts, StarRecord, TOO_MANY, count_stars, mark_overlapping_stars,
 };

@@ -11,38 +11,68 @@ use crate::geometry::{Points, Real};
 use crate::ids::TreeVertex;
 use fearless_simd::Simd;
 
-/// Counts at a vertex, in nine fields of seven bits.
+/// Ways and middles at a vertex.
 ///
-/// Three say how many triangles face up along each axis, three how many face down. Three say in how
-/// many the vertex is in the middle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct StarCounts(u64);
+/// Three bits say whether all triangles face up along each axis, three whether all face down. Three
+/// fields of [`BITS`] bits count the triangles in which the vertex is in the middle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct StarCounts(u32);
 
-/// Width of a field.
-const BITS: u32 = 7;
-
-/// Number of triangles that says as many or more: a field holds less.
-pub(crate) const MOST_COUNTED: StarRecord = CLOSED - 1;
+/// The bits of ways.
+const WAYS: u32 = (1 << 6) - 1;
+/// Width of a field of middles.
+const BITS: u32 = 4;
+/// A field of ones.
+const FIELD: u32 = (1 << BITS) - 1;
 
 impl StarCounts {
-    /// All bits, which no star has.
-    pub(crate) const ALL: Self = Self(u64::MAX);
+    /// Counts of a star without triangles.
+    pub(crate) const NONE: Self = Self(WAYS);
+    /// All bits, which no star has that is looked at.
+    pub(crate) const ALL: Self = Self(u32::MAX);
 
+    /// Adds the counts of other triangles at the vertex.
+    pub(crate) fn add(&mut self, Self(more): Self) {
+        self.take(more | !WAYS, more & !WAYS);
+    }
+
+    /// Takes a triangle: its ways, with all other bits set, and its middles.
     #[inline(always)]
-    pub(crate) fn add(&mut self, other: Self) {
+    fn take(&mut self, ways: u32, middles: u32) {
         // Fields of stars that are too large overflow, and are not looked at.
-        self.0 = self.0.wrapping_add(other.0);
+        self.0 = (self.0 & ways).wrapping_add(middles);
+    }
+}
+
+/// A triangle, as a vertex of it counts it.
+#[derive(Clone, Copy)]
+pub(crate) struct Counted {
+    ways: u32,
+    middles: u32,
+}
+
+impl Counted {
+    #[inline(always)]
+    pub(crate) fn add_to(self, counts: &mut StarCounts) {
+        counts.take(self.ways, self.middles);
+    }
+
+    pub(crate) fn alone(self) -> StarCounts {
+        StarCounts(self.ways & WAYS | self.middles)
     }
 }
 
 /// How the triangles at a vertex are joined, in a byte.
 ///
-/// Not below [`CLOSED`] if they are closed; the rest is how many they are, [`MOST_COUNTED`] for as
-/// many or more. What is no fan is closed and has none.
+/// Not below [`CLOSED`] if they are closed. The rest is their number, or [`TOO_MANY`]. What is no
+/// fan is closed and has none.
 pub(crate) type StarRecord = u8;
 
 /// Record of a closed fan, whose triangles go all round the vertex, less their number.
-pub(crate) const CLOSED: StarRecord = 1 << BITS;
+pub(crate) const CLOSED: StarRecord = 1 << 7;
+
+/// Number of triangles of a record that says as many or more: a field holds less.
+pub(crate) const TOO_MANY: StarRecord = FIELD as StarRecord + 1;
 
 /// Sets all bits of the counts of stars that may overlap along every axis. O(stars).
 ///
@@ -84,46 +114,27 @@ fn mark<I: Simd>(_: I, counts: &mut [StarCounts], records: impl Fn(usize) -> Sta
 
 /// All bits if a star may overlap along every axis, else none. Without branches, as lanes need it.
 #[inline(always)]
-fn all_if_overlapping(StarCounts(counts): StarCounts, record: u64) -> u64 {
-    let (count, is_closed) = (record & FIELD, record >> BITS);
+fn all_if_overlapping(StarCounts(counts): StarCounts, record: u32) -> u32 {
+    let [closed, too_many] = [CLOSED, TOO_MANY].map(u32::from);
+    let is_closed = record / closed;
     // Twice if closed, else once or never.
     let (middles, which) = (2 * is_closed, FIELD - 1 + is_closed);
     let mut overlaps = true;
     for axis in 0..3 {
-        let field = |field: u32| counts >> (BITS * field) & FIELD;
-        let up = field(axis) ^ count;
-        let down = field(3 + axis) ^ count;
-        let turns = (field(6 + axis) ^ middles) & which;
-        overlaps &= (up != 0) & (down != 0) | (turns != 0);
+        let ways = counts >> axis & 0b1001;
+        let turns = (counts >> (6 + BITS * axis) ^ middles) & which;
+        overlaps &= (ways == 0) | (turns != 0);
     }
     // No fan, or too many to be counted.
-    overlaps |= (record == u64::from(CLOSED)) | (count == FIELD);
+    overlaps |= (record == closed) | (record % closed == too_many);
     overlaps &= record > 1;
-    u64::from(overlaps).wrapping_neg()
+    u32::from(overlaps).wrapping_neg()
 }
 
-/// A field of ones.
-const FIELD: u64 = MOST_COUNTED as u64;
-
-/// Counts of the ways of a triangle, by its six bits: each axis up, each down.
-const OF_WAYS: [u64; 64] = {
-    let mut counts = [0; 64];
-    let mut ways = 0;
-    while ways < 64 {
-        let mut field = 0;
-        while field < 6 {
-            counts[ways] |= (ways as u64 >> field & 1) << (BITS * field);
-            field += 1;
-        }
-        ways += 1;
-    }
-    counts
-};
-
-/// Counts of the middles of a triangle for each of its corners, by its six bits.
+/// Middles of a triangle for each of its corners, by its six bits.
 ///
 /// Three bits say for each axis whether corner 0 is in the middle, three whether corner 1 is.
-const OF_MIDDLES: [[u64; 3]; 64] = {
+const OF_MIDDLES: [[u32; 3]; 64] = {
     let mut counts = [[0; 3]; 64];
     let mut middles = 0;
     while middles < 64 {
@@ -134,7 +145,7 @@ const OF_MIDDLES: [[u64; 3]; 64] = {
                 (_, 1) => 1,
                 _ => 2,
             };
-            counts[middles][corner] |= 1 << (BITS * (6 + axis));
+            counts[middles][corner] |= 1 << (6 + BITS * axis as u32);
             axis += 1;
         }
         middles += 1;
@@ -147,7 +158,7 @@ pub(crate) fn count_stars<S: Coordinate>(
     instructions: Instructions,
     positions: &Points<S>,
     triangles: &[[TreeVertex; 3]],
-    add: impl FnMut(usize, TreeVertex, StarCounts),
+    add: impl FnMut(usize, TreeVertex, Counted),
 ) {
     dispatch!(instructions, i => in_eights(i, positions, triangles, add));
 }
@@ -157,7 +168,7 @@ fn in_eights<I: Simd, S: Coordinate>(
     i: I,
     positions: &Points<S>,
     triangles: &[[TreeVertex; 3]],
-    mut add: impl FnMut(usize, TreeVertex, StarCounts),
+    mut add: impl FnMut(usize, TreeVertex, Counted),
 ) {
     for (number, some) in triangles.chunks(8).enumerate() {
         let mut eight = [some[0]; 8];
@@ -172,12 +183,14 @@ fn in_eights<I: Simd, S: Coordinate>(
         }
         let codes = codes(&points);
         for (lane, corners) in some.iter().enumerate() {
-            let [ways, middles] = [codes[lane] & 63, codes[lane] >> 6 & 63];
-            let of_ways = OF_WAYS[ways as usize];
+            let [ways, middles] = [codes[lane] & WAYS, codes[lane] >> 6 & 63];
             let of_middles = OF_MIDDLES[middles as usize];
             for corner in 0..3 {
-                let counts = StarCounts(of_ways + of_middles[corner]);
-                add(8 * number + lane, corners[corner], counts);
+                let counted = Counted {
+                    ways: ways | !WAYS,
+                    middles: of_middles[corner],
+                };
+                add(8 * number + lane, corners[corner], counted);
             }
         }
     }
@@ -232,9 +245,13 @@ mod tests {
     use super::*;
     use pliant_oracle::{Class, Random, fits_f32, orientation};
 
-    /// The field of a triangle's counts, by the corner and whether this is in the middle.
-    fn field(counts: StarCounts, field: u32) -> bool {
-        counts.0 >> (BITS * field) & FIELD == 1
+    /// Whether a triangle faces this way, and whether a corner is in the middle.
+    fn faces(counts: StarCounts, way: u32) -> bool {
+        counts.0 >> way & 1 == 1
+    }
+
+    fn is_middle(counts: StarCounts, axis: u32) -> bool {
+        counts.0 >> (6 + BITS * axis) & FIELD == 1
     }
 
     /// Compares a triangle's counts with exact signs. Returns how many ways are certain.
@@ -246,7 +263,9 @@ mod tests {
             .collect();
         let lists = Instructions::all().into_iter().map(|instructions| {
             let mut list = Vec::new();
-            let add = |place, vertex: TreeVertex, counts| list.push((place, vertex.0, counts));
+            let add = |place, vertex: TreeVertex, counted: Counted| {
+                list.push((place, vertex.0, counted.alone()));
+            };
             count_stars(instructions, &positions, &corners, add);
             list
         });
@@ -267,7 +286,7 @@ mod tests {
                 let mut apex = beyond[0];
                 apex[axis as usize] = 1.0;
                 let way = orientation(&beyond[0], &beyond[1], &beyond[2], &apex);
-                let [up, down] = [field(counts, axis), field(counts, 3 + axis)];
+                let [up, down] = [faces(counts, axis), faces(counts, 3 + axis)];
                 assert!((!up || way > 0) && (!down || way < 0), "{a:?} {b:?} {c:?}");
                 certain += u32::from(up | down);
                 if way != 0 {
@@ -275,7 +294,7 @@ mod tests {
                     let own = place([a, b, c][number % 3]);
                     let others = [a, b, c].map(place).into_iter();
                     let smaller = others.filter(|other| *other < own).count();
-                    assert_eq!(field(counts, 6 + axis), smaller == 1, "{a:?} {b:?} {c:?}");
+                    assert_eq!(is_middle(counts, axis), smaller == 1, "{a:?} {b:?} {c:?}");
                 }
             }
         }
@@ -307,24 +326,42 @@ mod tests {
         );
     }
 
-    /// Stars of every number, closed and open, with all numbers of middles and of one way missing.
+    /// Sums of triangles that all face one way, and of which one does not.
+    #[test]
+    fn counts_of_a_star_keep_the_ways_of_all() {
+        let triangle = |ways: u32, middles: [u32; 3]| {
+            let fields = (0..)
+                .zip(middles)
+                .map(|(axis, count)| count << (6 + BITS * axis));
+            StarCounts(ways | fields.sum::<u32>())
+        };
+        let mut sum = StarCounts::NONE;
+        for _ in 0..15 {
+            sum.add(triangle(0b100_011, [0, 1, 0]));
+        }
+        assert_eq!(sum, triangle(0b100_011, [0, 15, 0]));
+        sum.add(triangle(0b010_110, [0, 0, 1]));
+        assert_eq!(sum, triangle(0b000_010, [0, 15, 1]));
+    }
+
+    /// Stars of every number, closed and open, with all numbers of middles, and of every way.
     #[test]
     fn stars_are_left_unless_they_show_one_way() {
         let mut stars = vec![];
-        for count in 0..=MOST_COUNTED {
+        for count in 0..=TOO_MANY {
             for record in [count, CLOSED + count] {
-                for axis in 0..6 {
-                    for middles in 0..8_u64.min(u64::from(count) + 1) {
-                        for missing in 0..=u64::from(count > 0) {
-                            let ways = u64::from(count) - missing;
-                            let word = ways << (BITS * axis) | middles << (BITS * (6 + axis % 3));
-                            let is_fan = record != CLOSED && count != MOST_COUNTED;
+                for way in 0..6 {
+                    for middles in 0..=u32::from(count).min(FIELD) {
+                        for faces in 0..2 {
+                            let axis = way % 3;
+                            let word = faces << way | middles << (6 + BITS * axis);
+                            let is_fan = record != CLOSED && count != TOO_MANY;
                             let once = if record < CLOSED {
                                 middles < 2
                             } else {
                                 middles == 2
                             };
-                            let free = is_fan && missing == 0 && once || record < 2;
+                            let free = is_fan && faces == 1 && once || record < 2;
                             stars.push((StarCounts(word), record, free));
                         }
                     }

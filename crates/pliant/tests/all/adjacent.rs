@@ -313,7 +313,7 @@ fn very_many_contacts_at_one_vertex_are_refused() {
 /// Fans of any number of triangles; what is no fan is decided pair by pair.
 #[test]
 fn large_fans_take_little_time() {
-    for count in [126, 127, 20_000] {
+    for count in [15, 16, 20_000] {
         let mut world = World::<f64>::new();
         let (triangles, positions) = fan(count, true, [0.0; 3], |i| {
             let angle = TAU * f64::from(i) / f64::from(count);

@@ -169,7 +169,7 @@ impl AdjacentSearch {
     ) {
         self.counts.clear();
         self.counts
-            .resize(body.order.used_vertices(), StarCounts::default());
+            .resize(body.order.used_vertices(), StarCounts::NONE);
         let triangles = body.shape.triangles;
         let nanoseconds = Grain::STARS.time(triangles.len());
         let whole = Run {
@@ -269,7 +269,7 @@ impl AdjacentSearch {
         let counts = &mut self.counts;
         self.left.retain(|left| {
             if left.is_free {
-                counts[left.vertex.index()] = StarCounts::default();
+                counts[left.vertex.index()] = StarCounts::NONE;
             }
             !left.is_free
         });
@@ -324,13 +324,13 @@ impl Run<'_> {
             instructions,
             positions,
             self.triangles,
-            |place, vertex, counts| {
+            |place, vertex, counted| {
                 if body.is_gone((first + place) as u32) {
                     return;
                 }
                 match own.get_mut(vertex.index().wrapping_sub(first_vertex)) {
-                    Some(own) => own.add(counts),
-                    None => others.push((vertex.index(), counts)),
+                    Some(own) => counted.add_to(own),
+                    None => others.push((vertex.index(), counted.alone())),
                 }
             },
         );

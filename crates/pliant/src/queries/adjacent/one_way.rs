@@ -74,7 +74,7 @@ impl Wing {
 ///
 /// # Proof
 ///
-/// As of `StarCounts::shows_one_way`, with any direction n in the place of an axis. The line across
+/// As of `mark_overlapping_stars`, with any direction n in the place of an axis. The line across
 /// is (n_y, -n_x, 0) or one of its like, which is exactly perpendicular to n.
 ///
 /// # Rounding

@@ -138,14 +138,14 @@ const OF_MIDDLES: [[u32; 3]; 64] = {
     let mut counts = [[0; 3]; 64];
     let mut middles = 0;
     while middles < 64 {
-        let mut axis = 0;
+        let mut axis = 0_u32;
         while axis < 3 {
             let corner = match (middles >> axis & 1, middles >> (3 + axis) & 1) {
                 (1, _) => 0,
                 (_, 1) => 1,
                 _ => 2,
             };
-            counts[middles][corner] |= 1 << (6 + BITS * axis as u32);
+            counts[middles][corner] |= 1 << (6 + BITS * axis);
             axis += 1;
         }
         middles += 1;

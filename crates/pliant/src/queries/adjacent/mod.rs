@@ -541,3 +541,63 @@ held!(Job: wings[], sectors[], hits[]);
 held!(AdjacentSearch: counts[], at_left[], left[]; |search| {
     search.found.held_by(held::list) + held::lists(&search.jobs)
 });
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Origin, Points};
+    use crate::mesh::Topology;
+    use crate::threads::{Interrupt, Threads};
+    use pliant_oracle::Random;
+    use std::num::NonZeroUsize;
+
+    /// A mesh that is not asked for its edges.
+    struct NoEdges;
+
+    impl OwnEdges for NoEdges {
+        fn own_edge(&self, _: TreeTriangle, _: usize, _: &dyn Fn() -> bool) -> Option<u32> {
+            None
+        }
+    }
+
+    /// What runs count at vertices of others must arrive there, each time.
+    #[test]
+    fn runs_count_together_what_one_counts() {
+        let mut random = Random::new(4);
+        let vertices = 4_000;
+        let triangles: Vec<[u32; 3]> = (0..7 * Grain::STARS.items as u32)
+            .map(|i| [0, 1, 2].map(|_| (i / 5 + random.below(300)) % vertices))
+            .collect();
+        let topology = Topology::new(&triangles, vertices as usize);
+        let order = Order::new(&topology, (0..triangles.len() as u32).collect());
+        let stars = Stars::new(&triangles, vertices as usize, &|| false).unwrap();
+        let points: Vec<[f32; 3]> = (0..order.vertex_order().len())
+            .map(|_| [0, 1, 2].map(|_| random.below(1 << 20) as f32))
+            .collect();
+        let positions = Points::of(points.into_iter());
+        let body = StarredBody {
+            body: BodyId(0),
+            shape: Shape {
+                positions: &positions,
+                triangles: order.all_corners(),
+                origin: Origin::default(),
+                version: 1,
+            },
+            order: &order,
+            removed: None,
+            mesh: &NoEdges,
+            stars: &stars,
+        };
+        let counts = [1, 16].map(|threads| {
+            let threads = &Threads::private(NonZeroUsize::new(threads).unwrap());
+            let interrupt = &Interrupt::default();
+            let executor = Executor { threads, interrupt };
+            let nanoseconds = Grain::STARS.time(triangles.len());
+            assert_eq!(executor.pays(nanoseconds), executor.are_many());
+            let mut search = AdjacentSearch::default();
+            search.count_stars(&body, Instructions::widest(), executor);
+            search.counts
+        });
+        assert_eq!(counts[0], counts[1]);
+    }
+}

@@ -560,7 +560,7 @@ mod tests {
         }
     }
 
-    /// What runs count at vertices of others must arrive there, each time.
+    /// Counts at vertices of another run must arrive there, each time.
     #[test]
     fn runs_count_together_what_one_counts() {
         let mut random = Random::new(4);

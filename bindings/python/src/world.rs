@@ -751,8 +751,8 @@ impl World {
     /// Nothing is computed until the query is asked, which raises pliant.Error: NoSuchBody,
     /// SameBody, TooManyHits, Busy. A value of only that is no ContactKind raises ValueError here.
     ///
-    /// Cost: O(m), about half of a query for intersections within a body. Where d triangles at a
-    /// vertex are folded, O(d^2) pairs are decided.
+    /// Cost: O(m), half of a query for intersections within a folded body, as much as one within a
+    /// flat body. Where d triangles at a vertex are folded, O(d^2) pairs are decided.
     #[pyo3(signature = (of=Selection::EVERYTHING, *, only=None))]
     fn adjacent_intersections(&self, of: Selection, only: Option<Only>) -> ContactQuery {
         let adjacent = true;

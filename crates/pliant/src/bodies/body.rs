@@ -371,10 +371,10 @@ impl<S: Coordinate> Body<S> {
 
     /// The body as the search for adjacent contacts reads it: stars are found, and the shape is
     /// brought into tree order. None if interrupted.
-    pub(crate) fn starred(
-        &mut self,
-        (instructions, executor): (Instructions, Executor),
-    ) -> Option<StarredBody<'_, S>> {
+    pub(crate) fn starred<'q>(
+        &'q mut self,
+        (instructions, executor): (Instructions, Executor<'q>),
+    ) -> Option<StarredBody<'q, S>> {
         if !self.bring_into_tree_order(None, instructions, executor) {
             return None;
         }
@@ -387,6 +387,7 @@ impl<S: Coordinate> Body<S> {
             removed: mesh.removed(),
             mesh,
             stars,
+            interrupt: executor.interrupt,
         })
     }
 

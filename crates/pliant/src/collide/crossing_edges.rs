@@ -16,8 +16,8 @@ use std::ops::ControlFlow;
 pub(crate) struct AskedCrossing<S: Coordinate> {
     of_strangers: Asked<CrossingEdges<S>>,
     adjacent: AskedAdjacent,
-    /// Crossing edges of triangles that share a vertex.
-    of_adjacent: Vec<CrossingEdge>,
+    /// Crossing edges of some triangles that share a vertex.
+    some: Vec<CrossingEdge>,
     all: Vec<CrossingEdge>,
 }
 
@@ -28,21 +28,37 @@ impl<S: Coordinate> AskedCrossing<S> {
         common: &mut Common<S>,
         request: &Request,
     ) -> Result<&[CrossingEdge], Error> {
-        self.cross_adjacent(common, request)?;
+        let refused = || {
+            ErrorKind::TooManyHits {
+                limit: request.most,
+            }
+            .of_query()
+        };
+        let mut all = std::mem::take(&mut self.all);
+        all.clear();
+        let done = self.visit_adjacent(common, request, &mut |some| {
+            all.extend_from_slice(some);
+            if all.len() > request.most {
+                return ControlFlow::Break(0);
+            }
+            ControlFlow::Continue(())
+        });
+        self.all = all;
+        done?;
+        if self.all.len() > request.most {
+            return Err(refused());
+        }
         let statistics = common.statistics;
         let kind = CrossingEdges::default();
         let of_strangers = self.of_strangers.all_listed(&kind, common, request)?;
         common.statistics += statistics;
-        if self.of_adjacent.is_empty() {
+        if self.all.is_empty() {
             return Ok(of_strangers);
         }
-        if of_strangers.len() + self.of_adjacent.len() > request.most {
-            let limit = request.most;
-            return Err(ErrorKind::TooManyHits { limit }.of_query());
+        if of_strangers.len() + self.all.len() > request.most {
+            return Err(refused());
         }
-        self.all.clear();
         self.all.extend_from_slice(of_strangers);
-        self.all.append(&mut self.of_adjacent);
         self.all.sort_unstable();
         Ok(&self.all)
     }
@@ -64,32 +80,37 @@ impl<S: Coordinate> AskedCrossing<S> {
             })?;
         if goes_on {
             let statistics = common.statistics;
-            self.cross_adjacent(common, request)?;
+            self.visit_adjacent(common, request, visitor)?;
             common.statistics += statistics;
-            let _ = visitor(&self.of_adjacent);
         }
         Ok(())
     }
 
-    /// Finds the crossing edges of triangles that share a vertex.
-    fn cross_adjacent(&mut self, common: &mut Common<S>, request: &Request) -> Result<(), Error> {
+    /// Shows the crossing edges of triangles that share a vertex, until the visitor breaks.
+    fn visit_adjacent(
+        &mut self,
+        common: &mut Common<S>,
+        request: &Request,
+        visitor: Visitor<CrossingEdge>,
+    ) -> Result<(), Error> {
         let request = Request {
             only: Some(ContactKind::Crossing),
             ..*request
         };
-        let of_adjacent = &mut self.of_adjacent;
-        of_adjacent.clear();
+        let (some, mut count) = (&mut self.some, 0);
         self.adjacent.each(common, &request, &mut |body, hits| {
+            some.clear();
             for hit in hits {
-                body.cross(hit, of_adjacent);
+                body.cross(hit, some);
             }
-            ControlFlow::Continue(())
+            count += some.len() as u64;
+            visitor(some).map_break(|_| ())
         })?;
-        common.statistics.pairs = self.of_adjacent.len() as u64;
+        common.statistics.pairs = count;
         Ok(())
     }
 }
 
-empty!(AskedCrossing<S: Coordinate>: of_strangers, adjacent, of_adjacent, all);
+empty!(AskedCrossing<S: Coordinate>: of_strangers, adjacent, some, all);
 
-held!(AskedCrossing<S: Coordinate>: of_strangers, adjacent, of_adjacent[], all[]);
+held!(AskedCrossing<S: Coordinate>: of_strangers, adjacent, some[], all[]);

@@ -278,7 +278,7 @@ mod tests {
             let [a, b, c] = triangles[place];
             for axis in 0..3 {
                 // The normal's component is the volume with a step along the axis.
-                let mut beyond = [a, b, c].map(|corner| corner);
+                let mut beyond = [a, b, c];
                 let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
                 for corner in &mut beyond {
                     corner[axis as usize] = 0.0;

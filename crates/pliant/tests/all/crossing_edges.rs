@@ -4,7 +4,7 @@
 //! crossing edges and of pairs of triangles go together.
 
 use crate::common::{Lcg, covering_configurations, world_of};
-use pliant::{BodyId, CrossingEdge, Scalar, Selection, World, reference};
+use pliant::{BodyId, CrossingEdge, ErrorKind, Scalar, Selection, World, reference};
 use pliant_scenes::Scene;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -117,4 +117,43 @@ fn closed_surfaces_have_as_many_crossing_edges_as_crossing_triangles() {
         counts.iter().any(|&[_, adjacent, _]| adjacent > 0),
         "{counts:?}"
     );
+}
+
+/// Triangles that share a vertex and a line. The list is refused, and a visit ends, before the
+/// crossing edges of all pairs fill the memory.
+#[test]
+fn very_many_crossing_edges_at_one_vertex_are_refused() {
+    const COUNT: u32 = 30_000;
+    let mut positions = vec![[0.0; 3]];
+    for i in 0..COUNT {
+        let part = f64::from(i) / f64::from(COUNT);
+        let (sine, cosine) = (std::f64::consts::PI * part).sin_cos();
+        positions.extend([1.0, -1.0].map(|side| [1.0 + part, side * cosine, side * sine]));
+    }
+    let triangles = (0..COUNT).map(|i| [0, 1 + 2 * i, 2 + 2 * i]);
+    let mut world = World::<f64>::new();
+    let of = Selection::Within(
+        world
+            .add(&triangles.collect::<Vec<_>>(), &positions)
+            .unwrap(),
+    );
+    let before = world.memory_usage();
+    let refused = world.crossing_edges(of).at_most(1_000).all();
+    assert_eq!(
+        refused.unwrap_err().kind,
+        ErrorKind::TooManyHits { limit: 1_000 }
+    );
+    let mut seen = 0;
+    let stopped = world.crossing_edges(of).visit(|crossing| {
+        seen += 1;
+        assert!(crossing.edge >= 2 * COUNT, "an edge at the shared vertex");
+        if seen < 100_000 {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
+    });
+    assert!(stopped.unwrap().is_break());
+    let kept = world.memory_usage() - before;
+    assert!(kept < 40 << 20, "{kept}");
 }

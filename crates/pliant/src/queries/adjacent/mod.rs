@@ -26,7 +26,7 @@ use crate::kernels::{
 };
 use crate::mesh::{Order, Stars, opposite};
 use crate::statistics::Statistics;
-use crate::threads::{Executor, Grain, PerThread};
+use crate::threads::{Executor, Grain, Interrupt, PerThread};
 pub use hit::AdjacentContact;
 use pliant_exact::{adjacent_contact, crossing_edges};
 use std::ops::{ControlFlow, Range};
@@ -47,6 +47,7 @@ pub(crate) struct StarredBody<'q, S> {
     pub(crate) removed: Option<Removed<'q>>,
     pub(crate) mesh: &'q dyn OwnEdges,
     pub(crate) stars: &'q Stars,
+    pub(crate) interrupt: &'q Interrupt<'q>,
 }
 
 /// Adjacent contact of two triangles, in tree order.
@@ -520,9 +521,10 @@ impl<S: Coordinate> StarredBody<'_, S> {
     pub(crate) fn cross(&self, hit: &TreeAdjacent, list: &mut Vec<CrossingEdge>) {
         let [a, b] = hit.triangles.map(|it| self.shape.corners(it));
         let crossing = crossing_edges(S::PRECISION, &a, &b);
+        let stop = &|| self.interrupt.is_set();
         for (of, corner) in (0..6).map(|edge| (edge / 3, edge % 3)) {
             if crossing[of][corner]
-                && let Some(edge) = self.mesh.own_edge(hit.triangles[of], corner, &|| false)
+                && let Some(edge) = self.mesh.own_edge(hit.triangles[of], corner, stop)
             {
                 let other = self.order.caller_triangle(hit.triangles[1 - of]);
                 list.push(CrossingEdge {
@@ -587,6 +589,7 @@ mod tests {
             removed: None,
             mesh: &NoEdges,
             stars: &stars,
+            interrupt: &Interrupt::default(),
         };
         let counts = [1, 16].map(|threads| {
             let threads = &Threads::private(NonZeroUsize::new(threads).unwrap());

@@ -41,9 +41,10 @@ impl<S: Scalar> World<S> {
     /// # Ok::<(), pliant::Error>(())
     /// ```
     ///
-    /// Cost: O(m), about a third of a query for intersections within the body; no tree is looked
-    /// at. The first time it finds which triangles are at each vertex. Where d triangles at a
-    /// vertex are folded, O(d^2) pairs are decided.
+    /// Cost: O(m), some ten nanoseconds a triangle, and no tree is looked at. That is half of a
+    /// query for intersections within a folded body, and as much as one within a flat body. The
+    /// first time it finds which triangles are at each vertex. Where d triangles at a vertex are
+    /// folded, O(d^2) pairs are decided.
     ///
     /// # Errors
     ///

@@ -37,8 +37,8 @@ impl<S: Scalar> World<S> {
     /// # Ok::<(), pliant::Error>(())
     /// ```
     ///
-    /// Cost: that of intersections and, within bodies, of adjacent intersections, and some hundred
-    /// nanoseconds for each of their hits.
+    /// Cost: that of intersections and, within bodies, of adjacent intersections, and a quarter of
+    /// a microsecond for each of their hits.
     ///
     /// # Errors
     ///

@@ -7,8 +7,8 @@
 use crate::edit::Edited;
 use crate::ids::BodyId;
 use crate::queries::{
-    CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, Contact, EdgeEdge, EdgeEdgeImpact, Pair,
-    VertexTriangle, VertexTriangleImpact,
+    AdjacentContact, CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, Contact, CrossingEdge,
+    EdgeEdge, EdgeEdgeImpact, Pair, VertexTriangle, VertexTriangleImpact,
 };
 use crate::world::{Fused, Piece};
 use std::collections::BTreeMap;
@@ -51,6 +51,8 @@ macro_rules! listed {
 listed! {
     Pair: [Triangle, Triangle];
     Contact: [Triangle, Triangle] .pair;
+    AdjacentContact: [Triangle, Triangle] .pair;
+    CrossingEdge: [Edge, Triangle];
     VertexTriangle: [Vertex, Triangle];
     EdgeEdge: [Edge, Edge];
     CloseVertexTriangle: [Vertex, Triangle] .pair;

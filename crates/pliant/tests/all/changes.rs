@@ -1,7 +1,10 @@
 //! Changes of lists, against a model that gives every triangle that ever was a name of its own.
 
 use crate::common::{Lcg, sheet};
-use pliant::{BodyId, Changed, Changes, Contact, EdgeEdge, Pair, Selection, VertexTriangle, World};
+use pliant::{
+    AdjacentContact, BodyId, Changed, Changes, Contact, CrossingEdge, EdgeEdge, Pair, Selection,
+    VertexTriangle, World,
+};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Names of all triangles and vertices, by body and number; a name is never given twice.
@@ -64,12 +67,13 @@ impl Model {
     }
 }
 
-/// Changes of three lists, each with its model.
+/// Changes of four lists, each with its model.
 #[derive(Default)]
 struct Followed {
     pairs: (Changes<Pair>, Model),
     near: (Changes<VertexTriangle>, Model),
     contacts: (Changes<Contact>, Model),
+    adjacent: (Changes<AdjacentContact>, Model),
 }
 
 /// Tells all changes of an edit.
@@ -78,6 +82,7 @@ macro_rules! tell {
         $followed.pairs.0.$method($($argument),*);
         $followed.near.0.$method($($argument),*);
         $followed.contacts.0.$method($($argument),*);
+        $followed.adjacent.0.$method($($argument),*);
     };
 }
 
@@ -92,6 +97,8 @@ struct Life {
     edits: usize,
     again: usize,
     persisting: usize,
+    /// Persisting pairs that share a vertex.
+    adjacent: usize,
 }
 
 impl Life {
@@ -223,6 +230,7 @@ impl Life {
             pairs,
             near,
             contacts,
+            adjacent,
         } = &mut self.followed;
 
         let listed = self.world.intersections(of).all().unwrap();
@@ -236,6 +244,12 @@ impl Life {
         listed.reverse();
         let of_names: Vec<_> = listed.iter().map(|contact| named(&contact.pair)).collect();
         contacts.1.check(&of_names, &contacts.0.update(&listed));
+
+        let listed = self.world.adjacent_intersections(of).all().unwrap();
+        let of_names: Vec<_> = listed.iter().map(|contact| named(&contact.pair)).collect();
+        let changed = adjacent.0.update(listed);
+        self.adjacent += listed.len() - changed.began.len();
+        adjacent.1.check(&of_names, &changed);
 
         let listed = self.world.vertex_triangle_candidates(of, 0.02).all();
         let listed = listed.unwrap();
@@ -251,7 +265,7 @@ impl Life {
 /// Two sheets through each other that are torn, filled, split and fused while they move.
 #[test]
 fn numbers_stay_through_lives_with_edits() {
-    let (mut edits, mut again, mut persisting) = (0, 0, 0);
+    let (mut edits, mut again, mut persisting, mut adjacent) = (0, 0, 0, 0);
     for seed in 0..12 {
         let mut life = Life {
             world: World::new(),
@@ -262,8 +276,11 @@ fn numbers_stay_through_lives_with_edits() {
             edits: 0,
             again: 0,
             persisting: 0,
+            adjacent: 0,
         };
-        let (triangles, flat) = sheet(9);
+        let (triangles, mut flat) = sheet(9);
+        // Neighbours that change places fold what is round them.
+        flat.swap(44, 45);
         for _ in 0..2 {
             let body = life.world.add(&triangles, &flat).unwrap();
             life.names.add(&life.world, body);
@@ -276,9 +293,10 @@ fn numbers_stay_through_lives_with_edits() {
         edits += life.edits;
         again += life.again;
         persisting += life.persisting;
+        adjacent += life.adjacent;
     }
-    let is_much = edits > 100 && again > 100 && persisting > 1_000;
-    assert!(is_much, "{edits} {again} {persisting}");
+    let is_much = edits > 100 && again > 100 && persisting > 1_000 && adjacent > 100;
+    assert!(is_much, "{edits} {again} {persisting} {adjacent}");
 }
 
 #[test]
@@ -326,4 +344,15 @@ fn edges_are_followed_by_their_ends() {
     let changed = changes.update(&[hit(0, 7), hit(1, 7)]);
     assert_eq!((changed.numbers, changed.began), (&[0, 2][..], &[1][..]));
     assert_eq!(changed.ended[0].number, 1);
+
+    // An edge is no triangle, whatever its number.
+    let crossing = |edge, triangle| CrossingEdge {
+        edge_body: body,
+        edge,
+        triangle_body: body,
+        triangle,
+    };
+    let mut changes = Changes::new();
+    changes.update(&[crossing(1, 2)]);
+    assert_eq!(changes.update(&[crossing(2, 1), crossing(1, 2)]).began, [0]);
 }

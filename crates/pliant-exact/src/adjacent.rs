@@ -172,7 +172,7 @@ fn cones(
     })
 }
 
-fn has_area(triangle: &Triangle, orientation: &mut impl Orientation) -> bool {
+pub(super) fn has_area(triangle: &Triangle, orientation: &mut impl Orientation) -> bool {
     PLANES.into_iter().any(|plane| {
         let [a, b, c] = projected(triangle, plane);
         orientation.sign_in_plane(a, b, c) != 0

@@ -9,13 +9,13 @@ mod environment;
 mod float;
 mod gap;
 mod integer;
+mod intersection;
 mod lattice;
 pub mod motion;
 mod orientation;
 mod point;
 pub mod reference;
 mod ring;
-mod segment;
 mod triangles;
 mod vector;
 
@@ -27,10 +27,10 @@ pub use element_pairs::{
 };
 pub use environment::{Precision, denormals_are_kept, is_in_range};
 pub use gap::are_boxes_within;
+pub use intersection::{End, Feature, Intersection, intersection};
 use lattice::{Lattice, on_lattice};
 use orientation::{Filtered, Orientation};
 pub use point::{Point, Triangle};
-pub use segment::{End, Feature, segment};
 use std::cmp::Ordering;
 
 /// Whether a triangle has no area: its corners lie on a line, or in a point.

@@ -8,7 +8,7 @@ use pliant_exact::motion::{
     Grid, Moving, distant_until, first_contact, impact, starts_surely_within,
 };
 use pliant_exact::{Point, Precision, are_boxes_within, contact_kind, intersect, is_degenerate};
-use pliant_exact::{adjacent_contact, crossing_edges, reference, segment, side_of_plane};
+use pliant_exact::{adjacent_contact, crossing_edges, intersection, reference, side_of_plane};
 use pliant_oracle::Random;
 
 const NUMBERS: [f64; 16] = [
@@ -57,7 +57,7 @@ fn any_numbers_are_answered() {
             ] {
                 adjacent_contact(precision, numbers, &a, &b, &mut 0);
             }
-            segment(precision, &a, &b);
+            intersection(precision, &a, &b);
             crossing_edges(precision, &a, &b);
             are_triangles_within(precision, &a, &b, distance);
             let known = SomePoints {

@@ -23,19 +23,19 @@ mod distance;
 mod environment;
 mod hull;
 mod integers;
+mod intersection;
 mod motion;
 mod pairs;
-mod segment;
 
 pub use adjacent::adjacent_contact;
 pub use distance::{compare_distance, compare_dot, compare_length};
 pub use environment::subnormals_flushed;
+pub use intersection::intersection;
 pub use motion::{
     Elements, FirstContact, MotionClass, Moving, compare_first, first_contact, meet_until,
     motion_fits_f32,
 };
 pub use pairs::{Class, Random, element_pairs, fits_f32};
-pub use segment::segment;
 
 use hull::{cross, determinant, minus, zero_in_hull, zero_inside, zero_inside_of_plane};
 use integers::{Exact, Scaled, Vector, scale};

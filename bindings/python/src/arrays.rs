@@ -8,7 +8,10 @@
 use crate::answers::Any;
 use crate::copies::{self, Copied};
 use crate::error::{Refused, Result, refused};
-use numpy::{Element, PyArray2, PyArrayDescrMethods, PyUntypedArray, PyUntypedArrayMethods, dtype};
+use numpy::{
+    Element, PyArray2, PyArrayDescrMethods, PyReadonlyArray2, PyUntypedArray,
+    PyUntypedArrayMethods, dtype,
+};
 use pliant_check::double;
 use pliant_io::{Positions, shown_within};
 use pyo3::basic::CompareOp;
@@ -391,6 +394,31 @@ pub(crate) fn refuse_masks(given: &Any<'_>, what: &str) -> Result<()> {
     Err(refused!(BadArray:
         "{what} are masked in places, and what is masked is no number; give an array without a \
          mask: {what}.filled(...), or only what is not masked"))
+}
+
+/// Copies rows of K numbers, as somebody gives them; refuses what is no array (k, K) of uint32.
+pub(crate) fn rows_of<const K: usize>(
+    given: &Any<'_>,
+    name: &str,
+    whose: &str,
+) -> Result<Vec<[u32; K]>> {
+    refuse_masks(given, name)?;
+    // Numpy copies, whatever strides and alignment are; then nobody else writes to it.
+    let copied = || {
+        let array = given.cast::<PyArray2<u32>>().ok()?;
+        let copy = array.call_method1("copy", ("C",)).ok()?;
+        let copy: PyReadonlyArray2<'_, u32> = copy.extract().ok()?;
+        let has_width = copy.shape()[1] == K;
+        let rows = copy.as_slice().ok()?.as_chunks::<K>().0.to_vec();
+        has_width.then_some(rows)
+    };
+    copied().ok_or_else(|| {
+        let have = match given.getattr("shape").and_then(|shape| shape.str()) {
+            Ok(shape) => format!("an array of shape {shape}"),
+            Err(_) => given.get_type().to_string(),
+        };
+        refused!(BadArray: "{name} are {have}; they must be (k, {K}) uint32, as {whose} them")
+    })
 }
 
 fn any<'py>(

@@ -1,10 +1,9 @@
 //! `Changes` of Python: rows of a list that began, persist and ended since the last list.
 
 use crate::answers::{Any, Column, Rows, class};
-use crate::arrays::{numbers, refuse_masks};
-use crate::error::{Refused, Result, alone_with, refused};
+use crate::arrays::{self, numbers};
+use crate::error::{Result, alone_with, refused};
 use crate::selection::Body;
-use numpy::{PyArray2, PyReadonlyArray2, PyUntypedArrayMethods};
 use pliant::{BodyId, Changed, Edited, Fused, Listed, Piece, Thing};
 use pyo3::prelude::*;
 use std::sync::Mutex;
@@ -109,7 +108,7 @@ impl Changes {
     ///
     /// Cost: O(k) for sorted rows, some nanoseconds each.
     fn update<'py>(&self, py: Python<'py>, rows: &Any<'py>) -> Result<Any<'py>> {
-        let rows = copied(rows)?;
+        let rows = arrays::rows_of(rows, "rows", "queries give")?;
         let told = alone_with(py, &self.state, move |changes| {
             Ok(with_changes!(changes, changes => told(changes.update(&listed(rows)))))
         })?;
@@ -184,9 +183,7 @@ impl Changes {
         after: &Any<'_>,
     ) -> Result<()> {
         let ends = |given: &Any<'_>, name: &str| -> Result<Vec<[u32; 2]>> {
-            refuse_masks(given, name)?;
-            let wanted = || bad_rows(name, given, "(k, 2)", "World.edges gives");
-            rows_of::<2>(given).ok_or_else(wanted)
+            arrays::rows_of(given, name, "World.edges gives")
         };
         let (before, after) = (ends(before, "before")?, ends(after, "after")?);
         let follow = |thing: Thing, of: BodyId, number: u32| {
@@ -226,32 +223,6 @@ fn told(changed: Changed<'_>) -> Told {
 
 fn listed<R: From<[u32; 4]>>(rows: Vec<[u32; 4]>) -> Vec<R> {
     rows.into_iter().map(R::from).collect()
-}
-
-fn copied(given: &Any<'_>) -> Result<Vec<[u32; 4]>> {
-    refuse_masks(given, "rows")?;
-    rows_of::<4>(given).ok_or_else(|| bad_rows("rows", given, "(k, 4)", "queries give"))
-}
-
-/// Copies rows of an array of uint32; none if it is another.
-fn rows_of<const K: usize>(given: &Any<'_>) -> Option<Vec<[u32; K]>> {
-    // Numpy copies, whatever strides and alignment are; then nobody else writes to it.
-    let array = given.cast::<PyArray2<u32>>().ok()?;
-    let copy = array.call_method1("copy", ("C",)).ok()?;
-    let copy: PyReadonlyArray2<'_, u32> = copy.extract().ok()?;
-    if copy.shape()[1] != K {
-        return None;
-    }
-    let (rows, _) = copy.as_slice().ok()?.as_chunks::<K>();
-    Some(rows.to_vec())
-}
-
-fn bad_rows(name: &str, given: &Any<'_>, shape: &str, whose: &str) -> Refused {
-    let have = match given.getattr("shape").and_then(|shape| shape.str()) {
-        Ok(shape) => format!("an array of shape {shape}"),
-        Err(_) => given.get_type().to_string(),
-    };
-    refused!(BadArray: "{name} are {have}; they must be {shape} uint32, as {whose} them")
 }
 
 /// A list of numbers of a named tuple.

@@ -21,6 +21,7 @@
 //! | `queries/contacts.rs` | `ContactQuery`: which triangles intersect, and how |
 //! | `queries/impacts.rs` | `ImpactQuery`: which elements meet during a motion, and when |
 //! | `world.rs` | `World`, method by method |
+//! | `curves.rs` | segments and curves in which listed pairs meet |
 //! | `pair_impacts.rs` | times of impact of single pairs of elements |
 //! | `one_liners.rs` | intersections of meshes in one call, and `pliant.reference` |
 //! | `usd.rs` | USD files, which Python evaluates |
@@ -36,6 +37,7 @@ mod arrays;
 mod changes;
 mod check;
 mod copies;
+mod curves;
 mod edit;
 mod error;
 mod one_liners;
@@ -59,6 +61,7 @@ mod _pliant {
     use crate::{
         changes::Changes,
         check::{Check, check},
+        curves::{curves, segments},
         edit::Edit,
         one_liners::{
             intersection_pairs, reference_intersection_pairs, reference_self_intersection_pairs,

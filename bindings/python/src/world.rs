@@ -80,7 +80,7 @@ use pyo3::types::{PyDict, PyTuple};
 /// copy.copy, copy.deepcopy and pickle make a world that answers the same.
 #[pyclass(frozen, module = "pliant")]
 pub(crate) struct World {
-    state: Shared,
+    pub(crate) state: Shared,
     keywords: Keywords,
 }
 

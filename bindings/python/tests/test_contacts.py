@@ -107,3 +107,55 @@ def test_edges_that_cross_triangles(dtype: type) -> None:
     crossing = world.crossing_edges(Selection.within(bow))
     assert [world.edges(bow)[row[1]].tolist() for row in crossing.all()] == [[1, 2]]
     assert repr(crossing) == f"<pliant.Query of Selection.within({bow}), edges that cross triangles>"
+
+
+def test_segments_and_curves() -> None:
+    world = pliant.World()
+    corners = np.array([[x, y, z] for z in (0.0, 1.0) for y in (0.0, 1.0) for x in (0.0, 1.0)])
+    quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+    faces = np.array([half for a, b, c, d in quads for half in ([a, b, c], [a, c, d])])
+    world.add(faces, corners)
+    world.add(faces, corners + [0.5, 0.25, 0.25])
+    pairs = world.intersections().all()
+    segments = pliant.segments(world, pairs)
+    assert segments.offsets[-1] == len(segments.points) == len(segments.on) and not segments.flat.any()
+    # Each end is where its feature of either triangle is.
+    shapes = [world.positions(body)[world.triangles(body)] for body in (0, 1)]
+    for pair, start, stop in zip(pairs.reshape(-1, 2, 2), segments.offsets, segments.offsets[1:]):
+        for end in range(int(start), int(stop)):
+            for side, (body, triangle) in enumerate(pair):
+                on, t = segments.on[end, side], segments.parameters[end, side]
+                three = shapes[body][triangle]
+                assert np.isnan(t) == (on not in (3, 4, 5))
+                if on < 3:
+                    assert (segments.points[end] == three[on]).all()
+                elif on < 6:
+                    there = three[on - 3] + t * (three[(on - 2) % 3] - three[on - 3])
+                    assert np.allclose(segments.points[end], there)
+    three = shapes[0][pairs[0, 1]]
+    up = np.cross(three[1] - three[0], three[2] - three[0])
+    assert np.allclose(segments.normals[0, 0], up / np.linalg.norm(up))
+    # Inside the first cube is the part 0.5 to 1, 0.25 to 1, 0.25 to 1: six sides of it are the curve.
+    curves = pliant.curves(world, pairs, areas=True)
+    assert len(curves.length) == 1 and curves.closed.all() and (curves.ends == 255).all()
+    assert np.isclose(curves.length[0], 2 * (0.5 + 0.75 + 0.75)) and len(curves.touching) == 0
+    line = curves.polyline(0)
+    assert len(line) == len(curves.steps)
+    sides = np.linalg.norm(np.roll(line, -1, axis=0) - line, axis=1)
+    assert np.isclose(sides.sum(), curves.length[0])
+    # A floor below cuts off a part of each cube that it meets.
+    floor = world.add([[0, 1, 2]], [[-9.0, -9, 0.3], [9, -9, 0.3], [0, 9, 0.3]])
+    below = pliant.curves(world, world.intersections(Selection.between(0, floor)).all(), areas=True)
+    assert below.areas is not None
+    assert np.allclose(below.areas, [[1 + 4 * 0.3, -1]])
+    assert pliant.curves(world, pairs).areas is None
+    # Open: the floor alone, through the border of a triangle.
+    leaf = world.add([[0, 1, 2]], [[0.0, 0, -1], [0.0, 0, 1], [50, 0, 1]])
+    one = pliant.curves(world, world.intersections(Selection.between(floor, leaf)).all())
+    assert not one.closed.any() and one.ends.tolist() == [[pliant.CurveEnd.BORDER] * 2]
+    assert one.polyline(0).shape == (2, 3)
+    with pytest.raises(pliant.Error, match="triangle 12") as refused:
+        pliant.segments(world, np.array([[0, 12, 1, 0]], np.uint32))
+    assert refused.value.kind == "NoSuchTriangle"
+    with pytest.raises(pliant.Error, match=r"pairs are an array of shape .*; they must be \(k, 4\) uint32"):
+        pliant.curves(world, pairs[:, :2])

@@ -9,7 +9,7 @@
 //! each step's least time, over the steps of a window. Other work on the machine hardly disturbs
 //! it.
 
-use pliant::{BodyId, Degree, Scalar, Selection, World};
+use pliant::{BodyId, Curves, Degree, Scalar, Selection, World};
 use pliant_bench::motion::Motion;
 use pliant_scenes::Scene;
 use std::time::Instant;
@@ -42,9 +42,11 @@ enum Ask {
     Adjacent,
     /// Edges that cross triangles.
     Edges,
+    /// Intersections, where they are, and the curves of these.
+    Curves,
 }
 
-const WINDOWS: [Window; 31] = [
+const WINDOWS: [Window; 32] = [
     ("easy", "spheres", 20_480, 1..=50, Ask::All),
     ("hard", "spheres", 20_480, 150..=200, Ask::All),
     ("deepest", "spheres", 20_480, 200..=200, Ask::All),
@@ -74,6 +76,7 @@ const WINDOWS: [Window; 31] = [
     ("foldstar", "cloth", 79_202, 35..=50, Ask::Adjacent),
     ("doubstar", "cloth", 79_202, 43..=45, Ask::Adjacent),
     ("edges", "spheres", 20_480, 200..=200, Ask::Edges),
+    ("curves", "spheres", 20_480, 200..=200, Ask::Curves),
     ("two", "spheres", 20_480, 200..=200, Ask::All),
     ("four", "spheres", 20_480, 200..=200, Ask::All),
 ];
@@ -171,11 +174,12 @@ fn play<S: Scalar + From<f32>>((name, scene, triangles, steps, ask): Window, rou
     let mut least = vec![[f64::INFINITY; 2]; frames.len()];
     let mut work = pliant::Statistics::default();
     let mut found = 0;
+    let mut curves = Curves::new();
     for _ in 0..rounds {
         work = pliant::Statistics::default();
         found = 0;
         for (frame, least) in frames.iter().zip(&mut least) {
-            let (moved, all, pairs) = one_step(&mut world, &bodies, frame, ask);
+            let (moved, all, pairs) = one_step(&mut world, &bodies, frame, ask, &mut curves);
             *least = [least[0].min(moved), least[1].min(all)];
             found += pairs;
             work += *world.statistics();
@@ -201,6 +205,7 @@ fn one_step<S: Scalar>(
     bodies: &[BodyId],
     frame: &[Placed<S>],
     ask: Ask,
+    curves: &mut Curves,
 ) -> (f64, f64, usize) {
     let start = Instant::now();
     for (&body, placed) in bodies.iter().zip(frame) {
@@ -263,6 +268,13 @@ fn one_step<S: Scalar>(
         Ask::Edges => {
             let edges = world.crossing_edges(Selection::World).all();
             edges.expect("the world is there").len()
+        }
+        Ask::Curves => {
+            let pairs = world.intersections(Selection::World).all();
+            let pairs = pairs.expect("the world is there").to_vec();
+            curves.update(world, &pairs).expect("all are there");
+            assert!(curves.iter().all(|curve| curve.is_closed()));
+            pairs.len()
         }
         Ask::Earliest => {
             let first = world.first_impact(Selection::Everything, 1e-6);

@@ -10,7 +10,7 @@ use super::environment::Precision;
 use super::lattice::{Lattice, on_lattice};
 use super::orientation::{Filtered, Orientation};
 use super::point::{PLANES, Point, Sign, Triangle, projected};
-use super::triangles::{plane_signs, triangles_intersect};
+use super::triangles::triangles_intersect;
 
 /// How two triangles of one mesh meet beyond the hull of the corners that they have in common, if
 /// they do. Corners of equal `numbers` are one vertex, and stand in one place.
@@ -126,8 +126,8 @@ fn beyond_corner(
     let [of_a, of_b] = rests.map(|rest| cones(p, rest, orientation));
     if let ([Some([q, r]), None], [Some([s, t]), None]) = (of_a, of_b) {
         let (a, b) = ([*p, q, r], [*p, s, t]);
-        let [_, side_q, side_r] = plane_signs(&b, &a, orientation);
-        let [_, side_s, side_t] = plane_signs(&a, &b, orientation);
+        let [_, side_q, side_r] = orientation.plane_signs(&b, &a);
+        let [_, side_s, side_t] = orientation.plane_signs(&a, &b);
         if side_q * side_r > 0 || side_s * side_t > 0 {
             return None;
         }

@@ -7,7 +7,7 @@
 
 use super::orientation::Orientation;
 use super::point::{PLANES, Point, Point2, Sign, Triangle, projected};
-use super::triangles::{edge, one_side, plane_signs};
+use super::triangles::{edge, one_side};
 
 /// How two triangles, as closed sets, have points in common. Each pair that intersects is of one
 /// kind, decided exactly.
@@ -49,8 +49,8 @@ pub(super) fn contact_kind(
     b: &Triangle,
     orientation: &mut impl Orientation,
 ) -> ContactKind {
-    let of_b = plane_signs(a, b, orientation);
-    let of_a = plane_signs(b, a, orientation);
+    let of_b = orientation.plane_signs(a, b);
+    let of_a = orientation.plane_signs(b, a);
     // If all of one triangle is in the plane of another that is not in its own, that other is a
     // segment. In its planes everything is.
     let do_cross = match (on_both_sides(of_a), on_both_sides(of_b)) {

@@ -4,7 +4,7 @@ use super::environment::Precision;
 use super::lattice::{Lattice, on_lattice};
 use super::orientation::{Certain, Filtered, Orientation};
 use super::point::{Sign, Triangle};
-use super::triangles::{one_side, plane_signs};
+use super::triangles::one_side;
 
 /// Which edges of each triangle cross the other: the open edge meets the open triangle, and not in
 /// its plane.
@@ -38,11 +38,11 @@ pub fn crossing_edges(precision: Precision, a: &Triangle, b: &Triangle) -> [[boo
 
 fn of_both(a: &Triangle, b: &Triangle, orientation: &mut impl Orientation) -> [[bool; 3]; 2] {
     let none = [[false; 3]; 2];
-    let of_b = plane_signs(a, b, orientation);
+    let of_b = orientation.plane_signs(a, b);
     if one_side(of_b) {
         return none;
     }
-    let of_a = plane_signs(b, a, orientation);
+    let of_a = orientation.plane_signs(b, a);
     if one_side(of_a) {
         return none;
     }

@@ -9,13 +9,19 @@
 use super::Precision;
 use super::float::{U, power, sign_beyond};
 use super::integer::powers_of_all;
-use super::point::{Point, Sign};
+use super::point::{Point, Sign, Triangle};
 use super::vector::{cross_on, determinant, in_units, minus};
 
 /// A source of orientation signs.
 pub(super) trait Orientation {
     /// The side of the plane through a, b, c on which d lies.
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign;
+
+    /// The sides of the plane of a triangle on which three points lie.
+    #[inline]
+    fn plane_signs(&mut self, [a, b, c]: &Triangle, points: &Triangle) -> [Sign; 3] {
+        [0, 1, 2].map(|i| self.sign(a, b, c, &points[i]))
+    }
 
     /// The side of the line through a, b on which c lies, in the plane of two coordinates; exact
     /// whatever the source is.
@@ -112,17 +118,41 @@ impl Filtered {
 /// whose error grows with the distance from the origin.
 const RELATIVE_ERROR: f64 = 9.0 * U;
 
-impl Filtered {
-    /// The sign, if the filter is certain of it.
+/// A plane through three points: its normal, and the sizes that rounding errors are parts of.
+struct Plane<'p> {
+    origin: &'p Point,
+    normal: [f64; 3],
+    size: [f64; 3],
+}
+
+impl<'p> Plane<'p> {
     #[inline]
-    fn certain_sign(&self, a: &Point, b: &Point, c: &Point, d: &Point) -> Option<Sign> {
-        let [e1, e2, t] = [b, c, d].map(|p| minus(p, a));
-        let (mut determinant, mut magnitude) = (0.0, 0.0);
+    fn of(origin: &'p Point, b: &Point, c: &Point) -> Self {
+        let [e1, e2] = [b, c].map(|p| minus(p, origin));
+        let (mut normal, mut size) = ([0.0; 3], [0.0; 3]);
         for i in 0..3 {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
             let (left, right) = (e1[j] * e2[k], e1[k] * e2[j]);
-            determinant += (left - right) * t[i];
-            magnitude += (left.abs() + right.abs()) * t[i].abs();
+            normal[i] = left - right;
+            size[i] = left.abs() + right.abs();
+        }
+        Self {
+            origin,
+            normal,
+            size,
+        }
+    }
+}
+
+impl Filtered {
+    /// The side of the plane on which a point lies, if the filter is certain of it.
+    #[inline]
+    fn certain_side(&self, plane: &Plane, point: &Point) -> Option<Sign> {
+        let t = minus(point, plane.origin);
+        let (mut determinant, mut magnitude) = (0.0, 0.0);
+        for i in 0..3 {
+            determinant += plane.normal[i] * t[i];
+            magnitude += plane.size[i] * t[i].abs();
         }
         let reach = t[0].abs() + t[1].abs() + t[2].abs() + 1.0;
         if determinant.abs() > RELATIVE_ERROR * magnitude + self.underflow * reach {
@@ -135,9 +165,22 @@ impl Filtered {
 impl Orientation for Filtered {
     #[inline]
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
-        self.certain_sign(a, b, c, d).unwrap_or_else(|| {
+        let certain = self.certain_side(&Plane::of(a, b, c), d);
+        certain.unwrap_or_else(|| {
             self.uncertain = true;
             Exact.sign(a, b, c, d)
+        })
+    }
+
+    #[inline]
+    fn plane_signs(&mut self, [a, b, c]: &Triangle, points: &Triangle) -> [Sign; 3] {
+        let plane = Plane::of(a, b, c);
+        [0, 1, 2].map(|i| {
+            let certain = self.certain_side(&plane, &points[i]);
+            certain.unwrap_or_else(|| {
+                self.uncertain = true;
+                Exact.sign(a, b, c, &points[i])
+            })
         })
     }
 }
@@ -155,15 +198,26 @@ impl Certain {
     pub(super) fn are_all(&self) -> bool {
         !self.0.uncertain
     }
+
+    #[inline]
+    fn side(&mut self, plane: &Plane, point: &Point) -> Sign {
+        self.0.certain_side(plane, point).unwrap_or_else(|| {
+            self.0.uncertain = true;
+            0
+        })
+    }
 }
 
 impl Orientation for Certain {
     #[inline]
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
-        self.0.certain_sign(a, b, c, d).unwrap_or_else(|| {
-            self.0.uncertain = true;
-            0
-        })
+        self.side(&Plane::of(a, b, c), d)
+    }
+
+    #[inline]
+    fn plane_signs(&mut self, [a, b, c]: &Triangle, points: &Triangle) -> [Sign; 3] {
+        let plane = Plane::of(a, b, c);
+        [0, 1, 2].map(|i| self.side(&plane, &points[i]))
     }
 }
 

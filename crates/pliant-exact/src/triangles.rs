@@ -33,11 +33,11 @@ pub(super) fn triangles_intersect(
     b: &Triangle,
     orientation: &mut impl Orientation,
 ) -> bool {
-    let of_b = plane_signs(a, b, orientation);
+    let of_b = orientation.plane_signs(a, b);
     if one_side(of_b) {
         return false;
     }
-    let of_a = plane_signs(b, a, orientation);
+    let of_a = orientation.plane_signs(b, a);
     if one_side(of_a) {
         return false;
     }
@@ -53,16 +53,6 @@ pub(super) fn triangles_intersect(
     (0..3).any(|i| crosses(of_a, i) && agree([edge_sign(i, 0), edge_sign(i, 1), edge_sign(i, 2)]))
         || (0..3)
             .any(|j| crosses(of_b, j) && agree([edge_sign(0, j), edge_sign(1, j), edge_sign(2, j)]))
-}
-
-/// The sides of the plane of `triangle` on which three points lie.
-#[inline]
-pub(super) fn plane_signs(
-    [a, b, c]: &Triangle,
-    points: &Triangle,
-    orientation: &mut impl Orientation,
-) -> [Sign; 3] {
-    [0, 1, 2].map(|i| orientation.sign(a, b, c, &points[i]))
 }
 
 #[inline]

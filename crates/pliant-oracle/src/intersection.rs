@@ -1,4 +1,4 @@
-//! What two triangles have in common, on a lattice, by fractions.
+//! Intersection of two triangles on a lattice, by fractions.
 //!
 //! Of all points where corners and edges may meet the other triangle, the ones that both hold are
 //! kept. All are on the outline of what they have in common, so one that is no corner of it is
@@ -39,7 +39,7 @@ pub fn intersection(corners: [[[i64; 3]; 3]; 2]) -> Vec<Corner> {
     corners.map(corner).collect()
 }
 
-/// The same point with a small denominator.
+/// A point with its smallest denominator.
 fn reduced((x, d): Fraction) -> Fraction {
     let divisor = x.iter().fold(d, |mut a, &b| {
         let mut b = b.abs();

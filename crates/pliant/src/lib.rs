@@ -112,6 +112,7 @@ mod bodies;
 mod broad_phase;
 mod changes;
 mod collide;
+mod curves;
 mod edit;
 mod error;
 mod geometry;
@@ -132,12 +133,14 @@ mod world;
 
 pub use bodies::{NodeBox, TreeShape};
 pub use changes::{Changed, Changes, Ended, Listed, Thing};
+pub use curves::{Curve, CurveEnd, Curves, Segment, Segments, Step};
 pub use edit::{Edit, Edited};
 pub use error::{Error, ErrorKind};
 pub use ids::BodyId;
 #[doc(hidden)]
 pub use kernels::Instructions;
 pub use options::{BroadPhase, Degree, Options, Partition, Update};
+pub use pliant_exact::{End, Feature};
 pub use queries::hits::*;
 pub use selection::Selection;
 pub use statistics::Statistics;

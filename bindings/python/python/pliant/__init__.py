@@ -13,6 +13,7 @@ A hit is a row of four numbers, uint32: body, triangle, body, triangle. Rows are
   self_intersection_pairs   one mesh, in one call
   intersection_pairs        two meshes, in one call
   vertex_triangle_impacts, edge_edge_impacts    when single pairs of moving elements meet
+  segments, curves          where listed pairs meet
   Changes                   hits that began, persist and ended since the last list
   check                     files, frame by frame
   Error                     every refusal, with its kind and facts
@@ -39,8 +40,10 @@ from ._pliant import (
     World,
     __version__,
     check,
+    curves,
     edge_edge_impacts,
     intersection_pairs,
+    segments,
     self_intersection_pairs,
     vertex_triangle_impacts,
 )
@@ -56,6 +59,8 @@ from ._types import (
     Contacts,
     CrossingEdge,
     CrossingEdges,
+    CurveEnd,
+    Curves,
     EdgeEdge,
     Edited,
     Error,
@@ -73,6 +78,7 @@ from ._types import (
     Pair,
     Piece,
     Place,
+    Segments,
     Statistics,
     TreeBoxes,
     TreeShape,
@@ -95,6 +101,8 @@ __all__ = [
     "Contacts",
     "CrossingEdge",
     "CrossingEdges",
+    "CurveEnd",
+    "Curves",
     "EdgeEdge",
     "Edit",
     "Edited",
@@ -115,6 +123,7 @@ __all__ = [
     "Piece",
     "Place",
     "Query",
+    "Segments",
     "Selection",
     "Statistics",
     "TreeBoxes",

@@ -31,6 +31,7 @@ from ._types import (
     ContactKind,
     Contacts,
     CrossingEdge,
+    Curves,
     EdgeEdge,
     Edited,
     Frame,
@@ -43,6 +44,7 @@ from ._types import (
     OpenMesh,
     Pair,
     Piece,
+    Segments,
     Statistics,
     TreeBoxes,
     TreeShape,
@@ -61,10 +63,12 @@ __all__ = [
     "World",
     "__version__",
     "check",
+    "curves",
     "edge_edge_impacts",
     "intersection_pairs",
     "reference_intersection_pairs",
     "reference_self_intersection_pairs",
+    "segments",
     "self_intersection_pairs",
     "vertex_triangle_impacts",
 ]
@@ -437,6 +441,12 @@ def reference_self_intersection_pairs(vertices: _Array, faces: _Array, /) -> _Pa
 
 @overload
 def reference_self_intersection_pairs(mesh: Mesh | OpenMesh, /) -> _Pairs: ...
+
+def segments(world: World, pairs: _Pairs) -> Segments:
+    """Says where pairs of triangles meet in the present shapes of a world: a Segments of arrays."""
+
+def curves(world: World, pairs: _Pairs, *, areas: bool = False) -> Curves:
+    """Finds the curves in which pairs of triangles meet: a Curves of arrays."""
 
 def vertex_triangle_impacts(
     start: _Array, end: _Array, width: float = 1e-6

@@ -207,6 +207,77 @@ class Contact(NamedTuple):
     kind: ContactKind
 
 
+class Segments(NamedTuple):
+    """Where k pairs of triangles meet, from segments: for each a point, a segment or a polygon."""
+
+    offsets: NDArray[np.uint64]
+    """(k + 1,): the ends of pair i are rows offsets[i] to offsets[i + 1]. Two ends are those of a
+    segment, which runs along the cross product of the normals; three to six are corners of a
+    polygon, in order around it. A pair that does not meet has none."""
+    points: NDArray[np.float64]
+    """(e, 3): positions of the ends of all pairs."""
+    on: NDArray[np.uint8]
+    """(e, 2): what an end lies on, for each triangle of its pair. 0 to 2 is a corner. 3 to 5 is
+    inside the edge from corner 0, 1 or 2 to the next. 6 is inside the triangle."""
+    parameters: NDArray[np.float64]
+    """(e, 2): the part of the way along that edge; NaN where it is none."""
+    normals: NDArray[np.float64]
+    """(k, 2, 3): unit normals of both triangles."""
+    flat: NDArray[np.bool_]
+    """(k,): whether both triangles lie in one plane."""
+
+
+class CurveEnd(IntEnum):
+    """What an open curve ends at."""
+
+    BORDER = 0
+    """No other segment goes on: at the border of a mesh, where surfaces begin to touch, or where a
+    pair is not listed."""
+    SHARED_VERTEX = 1
+    """A vertex that both triangles have."""
+    OVERLAP = 2
+    """A corner of a polygon in which triangles of one plane overlap."""
+    BRANCHING = 3
+    """A place from which three or more segments go."""
+
+
+class Curves(NamedTuple):
+    """Curves in which pairs of triangles meet, c in number, from curves."""
+
+    segments: Segments
+    """Where each pair meets."""
+    offsets: NDArray[np.uint64]
+    """(c + 1,): the steps of curve i are rows offsets[i] to offsets[i + 1]."""
+    steps: NDArray[np.uint64]
+    """(s,): the pair in whose segment each step goes."""
+    reversed: NDArray[np.bool_]
+    """(s,): whether it goes from the second end of the segment to the first."""
+    swapped: NDArray[np.bool_]
+    """(s,): whether the second triangle of the pair is on the first side of the curve. Curves run
+    along n_0 x n_1, the cross product of the normals of both sides."""
+    length: NDArray[np.float64]
+    """(c,): sum of the lengths of the segments."""
+    closed: NDArray[np.bool_]
+    """(c,): whether it comes back to where it begins."""
+    ends: NDArray[np.uint8]
+    """(c, 2): what it begins and ends at, a CurveEnd each; 255 if it is closed."""
+    areas: NDArray[np.float64] | None
+    """(c, 2): the area that it encloses on the sheets of its two sides, of the smaller part;
+    positive if that is on the left, where the normal points up. NaN where it is open, bounds no
+    part, or passes a vertex or along an edge of the sheet. None without areas=True."""
+    touching: NDArray[np.uint64]
+    """(p,): pairs that meet in one point, where no curve is; one for each point."""
+
+    def polyline(self, curve: int) -> NDArray[np.float64]:
+        """Points along a curve, (n, 3); a closed one does not repeat its first."""
+        own = slice(int(self.offsets[curve]), int(self.offsets[curve + 1]))
+        begins, turned = self.segments.offsets[self.steps[own]], self.reversed[own]
+        rows = begins + turned
+        if not self.closed[curve]:
+            rows = np.append(rows, begins[-1:] + ~turned[-1:])
+        return self.segments.points[rows]
+
+
 class Changed(NamedTuple):
     """Changes from the last list of hits to a new one. Rows of it that did not begin persist."""
 

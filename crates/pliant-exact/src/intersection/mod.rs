@@ -4,39 +4,17 @@
 //! polygon. Its corners are features of both, decided by signs alone, and so exactly. Coordinates
 //! alone are rounded.
 
+mod feature;
 mod polygon;
 mod position;
 mod segment;
 
 use super::environment::Precision;
 use super::orientation::{Filtered, Orientation};
-use super::point::{Point, Sign, Triangle};
-use super::triangles::plane_signs;
+use super::point::{Point, Triangle};
+pub use feature::Feature;
+use polygon::Corners;
 use position::position;
-use std::ops::Deref;
-
-/// The part of a triangle on which a point lies.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Feature {
-    /// A corner, by its number.
-    Corner(usize),
-    /// Inside an edge, from the corner with its number to the next.
-    Edge(usize),
-    /// Inside the triangle.
-    #[default]
-    Inside,
-}
-
-impl Feature {
-    /// Whether it is on a closed edge.
-    fn is_on(self, edge: usize) -> bool {
-        match self {
-            Self::Corner(i) => i == edge || i == (edge + 1) % 3,
-            Self::Edge(i) => i == edge,
-            Self::Inside => false,
-        }
-    }
-}
 
 /// A corner of what two triangles have in common: an end of a segment, or a corner of a polygon.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -53,17 +31,41 @@ pub struct End {
 ///
 /// None, if they do not meet; one point; two ends of a segment; or three to six corners of a
 /// polygon, in order around it. A polygon lies in the plane of both.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Intersection {
-    ends: [End; 6],
-    count: usize,
+#[derive(Clone, Copy, Debug)]
+pub struct Intersection<'t> {
+    of: [&'t Triangle; 2],
+    corners: Corners,
+    is_flat: bool,
 }
 
-impl Deref for Intersection {
-    type Target = [End];
+impl Intersection<'_> {
+    /// Number of ends.
+    pub fn len(&self) -> usize {
+        self.corners.all().len()
+    }
 
-    fn deref(&self) -> &[End] {
-        &self.ends[..self.count]
+    /// Whether they do not meet.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The ends, whose positions are computed here.
+    pub fn ends(&self) -> impl ExactSizeIterator<Item = End> {
+        self.corners.all().iter().map(|&on| {
+            let (point, parameter) = position(self.of, on);
+            End {
+                on,
+                point,
+                parameter,
+            }
+        })
+    }
+
+    /// Whether all corners of each triangle are in the plane of the other.
+    ///
+    /// Two triangles without area always are, whether or not in one plane.
+    pub fn is_flat(&self) -> bool {
+        self.is_flat
     }
 }
 
@@ -84,7 +86,7 @@ impl Deref for Intersection {
 ///
 /// let floor = [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
 /// let leaf = [[1.0, 1.0, -1.0], [1.0, 1.0, 1.0], [9.0, 1.0, 1.0]];
-/// let both = intersection(Precision::Double, &floor, &leaf);
+/// let both: Vec<_> = intersection(Precision::Double, &floor, &leaf).ends().collect();
 /// // Edge 1 of the floor goes through the leaf, and edge 0 of the leaf through the floor.
 /// assert_eq!(both[0].on, [Feature::Edge(1), Feature::Inside]);
 /// assert_eq!(both[1].on, [Feature::Inside, Feature::Edge(0)]);
@@ -94,52 +96,32 @@ impl Deref for Intersection {
 /// let beside = floor.map(|[x, y, z]| [x + 1.0, y + 1.0, z]);
 /// assert_eq!(intersection(Precision::Double, &floor, &beside).len(), 3);
 /// ```
-pub fn intersection(precision: Precision, a: &Triangle, b: &Triangle) -> Intersection {
-    let mut found = Intersection::default();
-    for (end, &on) in found
-        .ends
-        .iter_mut()
-        .zip(features([a, b], &mut Filtered::new(precision)).all())
-    {
-        let (point, parameter) = position([a, b], on);
-        *end = End {
-            on,
-            point,
-            parameter,
-        };
-        found.count += 1;
+pub fn intersection<'t>(
+    precision: Precision,
+    a: &'t Triangle,
+    b: &'t Triangle,
+) -> Intersection<'t> {
+    let (corners, is_flat) = features([a, b], &mut Filtered::new(precision));
+    Intersection {
+        of: [a, b],
+        corners,
+        is_flat,
     }
-    found
 }
 
-/// Features of both triangles on which the corners of their intersection lie.
-fn features(both: [&Triangle; 2], orientation: &mut impl Orientation) -> polygon::Corners {
+/// Features of both triangles on which the corners of their intersection lie; and whether it is
+/// flat, with all corners of each triangle in the plane of the other.
+fn features(both: [&Triangle; 2], orientation: &mut impl Orientation) -> (Corners, bool) {
     let [a, b] = both;
-    let sides = [
-        plane_signs(b, a, orientation),
-        plane_signs(a, b, orientation),
-    ];
+    let sides = [orientation.plane_signs(b, a), orientation.plane_signs(a, b)];
     if sides == [[0; 3]; 2] {
-        return polygon::corners(both, orientation);
+        return (polygon::corners(both, orientation), true);
     }
     let ends = segment::ends(both, sides, orientation);
-    ends.map_or_else(polygon::Corners::default, polygon::Corners::of_segment)
-}
-
-/// The feature of a triangle that a line goes through, by the sides of its edges on which the line
-/// passes. None if it goes past.
-fn place(past: [Sign; 3]) -> Option<Feature> {
-    let goes_through = past.iter().all(|&side| side >= 0) || past.iter().all(|&side| side <= 0);
-    let on = match past.map(|side| side == 0) {
-        [false, false, false] => Feature::Inside,
-        [true, false, false] => Feature::Edge(0),
-        [false, true, false] => Feature::Edge(1),
-        [false, false, true] => Feature::Edge(2),
-        [true, _, true] => Feature::Corner(0),
-        [true, true, _] => Feature::Corner(1),
-        [_, true, true] => Feature::Corner(2),
-    };
-    goes_through.then_some(on)
+    (
+        ends.map_or_else(Corners::default, Corners::of_segment),
+        false,
+    )
 }
 
 #[cfg(test)]
@@ -170,7 +152,7 @@ mod tests {
         [0, 1, 2].map(|axis| p[axis] + t * (q[axis] - p[axis]))
     }
 
-    /// Whether corners in this order are those of a convex polygon, none of them flat.
+    /// Whether these are corners of a convex polygon in order, none of them flat.
     fn is_convex(corners: &[End]) -> bool {
         let at = |i: usize| corners[i % corners.len()].point;
         let turn = |i: usize| {
@@ -198,11 +180,11 @@ mod tests {
             };
             let lattice: [[[i64; 3]; 3]; 2] = [(); 2].map(|()| [(); 3].map(|()| point()));
             let [a, b] = lattice.map(|triangle| triangle.map(|point| point.map(|x| x as f64)));
-            let found = intersection(Precision::Double, &a, &b);
+            let found: Vec<End> = intersection(Precision::Double, &a, &b).ends().collect();
             let expected = pliant_oracle::intersection(lattice);
             let what = format!("{lattice:?} {found:?} {expected:?}");
             assert_eq!(found.len(), expected.len(), "{what}");
-            for end in found.iter() {
+            for end in &found {
                 let on = end.on.map(number);
                 let other = expected.iter().find(|(features, _)| *features == on);
                 let (_, point) = other.unwrap_or_else(|| panic!("{what}"));
@@ -218,7 +200,7 @@ mod tests {
                 seen[on[0]][on[1]] += 1;
             }
             sizes[usize::from(round % 3 == 0)][found.len()] += 1;
-            if let [first, second] = *found
+            if let [first, second] = found[..]
                 && round % 3 != 0
             {
                 let normals = [&a, &b].map(|[p, q, r]| {
@@ -239,14 +221,15 @@ mod tests {
             let on: Vec<_> = found.iter().map(|end| end.on).collect();
             // With roles exchanged: the same ends.
             let turned = intersection(Precision::Double, &b, &a);
-            let turned: Vec<_> = turned.iter().map(|end| [end.on[1], end.on[0]]).collect();
+            let turned = turned.ends().map(|end| [end.on[1], end.on[0]]);
+            let turned: Vec<_> = turned.collect();
             assert_eq!(sorted(&turned), sorted(&on), "{what}");
             // The same, far below the range of expansions, and by exact signs alone.
-            assert_eq!(*features([&a, &b], &mut Exact).all(), *on);
+            assert_eq!(*features([&a, &b], &mut Exact).0.all(), *on);
             let tiny = 0.5_f64.powi(600);
             let [a, b] = [&a, &b].map(|triangle| triangle.map(|point| point.map(|x| tiny * x)));
             let small = intersection(Precision::Double, &a, &b);
-            assert!(small.iter().map(|end| end.on).eq(on));
+            assert!(small.ends().map(|end| end.on).eq(on));
         }
         for (of_a, row) in seen.iter().enumerate() {
             for (of_b, &count) in row.iter().enumerate() {
@@ -274,7 +257,7 @@ mod tests {
             let on_edge = |triangle: &Triangle, edge| {
                 let both = intersection(Precision::Double, triangle, &floor);
                 let end = both
-                    .iter()
+                    .ends()
                     .find(|end| end.on == [Feature::Edge(edge), Feature::Inside]);
                 end.map(|end| (end.point, end.parameter[0]))
             };
@@ -310,7 +293,7 @@ mod tests {
             let leaf = [from, to, [x, y, 3000.0]];
             let ends = intersection(Precision::Double, &floor, &leaf);
             let on = [Feature::Inside, Feature::Edge(0)];
-            let end = ends.iter().find(|end| end.on == on).unwrap();
+            let end = ends.ends().find(|end| end.on == on).unwrap();
             let part = above / (above + below);
             let expected = [x + 1000.0 * part, y, slope * (x + 1000.0 * part)];
             for axis in 0..3 {

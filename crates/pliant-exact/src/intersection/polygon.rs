@@ -4,7 +4,7 @@
 //! through each other. All follows from signs in a plane of two axes in which neither triangle
 //! folds. A triangle without area is the segment or the point that it is, and the polygon is one.
 
-use super::{Feature, place};
+use super::feature::{Feature, place};
 use crate::adjacent::has_area;
 use crate::orientation::Orientation;
 use crate::point::{PLANES, Point2, Triangle, projected};
@@ -174,7 +174,7 @@ fn plane_of(
 }
 
 /// Corners of a polygon, at most six.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Corners {
     on: [[Feature; 2]; 6],
     count: usize,

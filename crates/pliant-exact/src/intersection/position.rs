@@ -2,7 +2,7 @@
 //!
 //! Which features it lies on is exact; what is here is rounded, with a proven bound.
 
-use super::Feature;
+use super::feature::Feature;
 use crate::float::scaled;
 use crate::integer::{powers_of_all, quotient};
 use crate::point::{Point, Triangle};

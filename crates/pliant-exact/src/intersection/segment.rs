@@ -4,7 +4,7 @@
 //! these in common. Ends are compared along the line by orientations of edges alone. Source: the
 //! interval test of Guigue and Devillers (2003), with all that is degenerate.
 
-use super::{Feature, place};
+use super::feature::{Feature, place};
 use crate::orientation::Orientation;
 use crate::point::{Sign, Triangle};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
@@ -18,11 +18,12 @@ struct Crossing {
     line: [usize; 2],
 }
 
-/// Where the ends lie on both triangles, with the corners of each on these sides of the other's
-/// plane; one place twice if they meet in a point. None if they do not meet.
+/// Where the ends lie on both triangles; one place twice if they meet in a point. None if they do
+/// not meet. The corners of each are on these sides of the other's plane.
 ///
 /// The ends run along n_a x n_b, the cross product of the normals. One triangle has no corner in
-/// the plane of the other, or not all. A triangle that has all has no area, and meets it in a point.
+/// the plane of the other, or not all. A triangle that has all has no area, and meets the other in
+/// a point.
 pub(super) fn ends(
     [a, b]: [&Triangle; 2],
     [of_a, of_b]: [[Sign; 3]; 2],
@@ -43,26 +44,35 @@ pub(super) fn ends(
         orientation.sign(p, q, r, s).cmp(&0)
     };
     let inner = [inner(of_a), inner(of_b)];
-    let ends = [order(start_a, end_b), order(end_a, start_b)];
-    match ends {
-        [Greater, _] | [_, Less] => return None,
-        [Equal, _] => return Some([[start_a.on, end_b.on]; 2]),
-        [_, Equal] => return Some([[end_a.on, start_b.on]; 2]),
-        [Less, Greater] => {}
+    let (starts, stops) = (order(start_a, start_b), order(end_a, end_b));
+    // They meet from the later start to the earlier end, and surely if these are of one triangle.
+    let between = match (starts, stops) {
+        (Less, Less) => (order(end_a, start_b).reverse(), [end_a.on, start_b.on]),
+        (Greater, Greater) => (order(start_a, end_b), [start_a.on, end_b.on]),
+        _ => (Less, [start_a.on, start_b.on]),
+    };
+    match between {
+        (Less, _) => {}
+        (Equal, point) => return Some([point; 2]),
+        (Greater, _) => return None,
     }
-    // A corner alone, inside the other's segment.
+    // A corner alone, at an end of the other's segment or inside it.
+    let at_an_end = match (starts, stops) {
+        (Equal, _) => Some([start_a.on, start_b.on]),
+        (_, Equal) => Some([end_a.on, end_b.on]),
+        _ => None,
+    };
     if start_a.on == end_a.on {
-        return Some([[start_a.on, inner[1]]; 2]);
+        return Some([at_an_end.unwrap_or([start_a.on, inner[1]]); 2]);
     }
     if start_b.on == end_b.on {
-        return Some([[inner[0], start_b.on]; 2]);
+        return Some([at_an_end.unwrap_or([inner[0], start_b.on]); 2]);
     }
     let end = |one: Crossing, other: Crossing, order: Ordering, of_a: Ordering| match order {
         Equal => [one.on, other.on],
         order if order == of_a => [one.on, inner[1]],
         _ => [inner[0], other.on],
     };
-    let (starts, stops) = (order(start_a, start_b), order(end_a, end_b));
     Some([
         end(end_a, end_b, stops, Less),
         end(start_a, start_b, starts, Greater),

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A folder, or a file of the crate's root, and the folders that it may use.
-const LAYERS: [(&str, &[&str]); 23] = [
+const LAYERS: [(&str, &[&str]); 24] = [
     ("held", &[]),
     ("ids", &[]),
     ("options", &[]),
@@ -139,6 +139,7 @@ const LAYERS: [(&str, &[&str]); 23] = [
         ],
     ),
     ("changes", &["ids", "edit", "queries", "world"]),
+    ("curves", &["ids", "error", "queries", "world"]),
     ("lib", &[]),
 ];
 

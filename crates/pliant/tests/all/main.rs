@@ -21,6 +21,7 @@ mod configurations;
 mod connectivity;
 mod contacts;
 mod crossing_edges;
+mod curves;
 mod distances;
 mod edits;
 mod edits_refused;

@@ -26,6 +26,12 @@ pub struct AdjacentContact {
     pub kind: ContactKind,
 }
 
+impl From<AdjacentContact> for Pair {
+    fn from(contact: AdjacentContact) -> Self {
+        contact.pair
+    }
+}
+
 impl Numbered for AdjacentContact {
     #[inline]
     fn numbers(&self) -> [u32; 4] {

@@ -17,6 +17,12 @@ pub struct Contact {
     pub kind: ContactKind,
 }
 
+impl From<Contact> for Pair {
+    fn from(contact: Contact) -> Self {
+        contact.pair
+    }
+}
+
 impl Numbered for Contact {
     #[inline]
     fn numbers(&self) -> [u32; 4] {

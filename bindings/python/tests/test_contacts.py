@@ -144,13 +144,13 @@ def test_segments_and_curves() -> None:
     sides = np.linalg.norm(np.roll(line, -1, axis=0) - line, axis=1)
     assert np.isclose(sides.sum(), curves.length[0])
     # A floor below cuts off a part of each cube that it meets.
-    floor = world.add([[0, 1, 2]], [[-9.0, -9, 0.3], [9, -9, 0.3], [0, 9, 0.3]])
+    floor = world.add([[0, 1, 2]], [[-9.0, -9.0, 0.3], [9.0, -9.0, 0.3], [0.0, 9.0, 0.3]])
     below = pliant.curves(world, world.intersections(Selection.between(0, floor)).all(), areas=True)
     assert below.areas is not None
     assert np.allclose(below.areas, [[1 + 4 * 0.3, -1]])
     assert pliant.curves(world, pairs).areas is None
     # Open: the floor alone, through the border of a triangle.
-    leaf = world.add([[0, 1, 2]], [[0.0, 0, -1], [0.0, 0, 1], [50, 0, 1]])
+    leaf = world.add([[0, 1, 2]], [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0], [50.0, 0.0, 1.0]])
     one = pliant.curves(world, world.intersections(Selection.between(floor, leaf)).all())
     assert not one.closed.any() and one.ends.tolist() == [[pliant.CurveEnd.BORDER] * 2]
     assert one.polyline(0).shape == (2, 3)

@@ -132,9 +132,11 @@ __all__ = [
     "World",
     "__version__",
     "check",
+    "curves",
     "edge_edge_impacts",
     "intersection_pairs",
     "reference",
+    "segments",
     "self_intersection_pairs",
     "vertex_triangle_impacts",
 ]

@@ -109,8 +109,8 @@ pub fn intersection<'t>(
     }
 }
 
-/// Features of both triangles on which the corners of their intersection lie; and whether it is
-/// flat, with all corners of each triangle in the plane of the other.
+/// Features of both triangles on which the corners of their intersection lie. And whether all
+/// corners of each triangle are in the plane of the other.
 fn features(both: [&Triangle; 2], orientation: &mut impl Orientation) -> (Corners, bool) {
     let [a, b] = both;
     let sides = [orientation.plane_signs(b, a), orientation.plane_signs(a, b)];

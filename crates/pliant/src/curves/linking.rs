@@ -248,8 +248,8 @@ impl<'c> Curve<'c> {
     /// It has the direction of the lowest of its segments, along n_0 x n_1, with the triangles of
     /// that pair on its two sides. On the other segments the sides go on from triangle to
     /// neighbour. If triangles at an edge are oriented alike, the curve runs along n_0 x n_1
-    /// everywhere. Here n_0 and n_1 are the normals of the two sides. On side 0, what is behind side
-    /// 1 is on the left of the curve. On side 1, what is behind side 0 is on its right.
+    /// everywhere. Here n_0 and n_1 are the normals of the two sides. On side 0, what is behind
+    /// side 1 is on the left of the curve. On side 1, what is behind side 0 is on its right.
     pub fn steps(&self) -> &'c [Step] {
         self.steps
     }

@@ -621,7 +621,7 @@ class OpenMesh(Protocol):
 
 _PUBLIC = (
     *(Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Contact, ContactKind, Contacts),
-    *(CrossingEdge, Changed, Edited, Fused, Piece, Impact, Impacts, FreeStep, TreeBoxes, TreeShape, Statistics),
+    *(CrossingEdge, Segments, CurveEnd, Curves, Changed, Edited, Fused, Piece, Impact, Impacts, FreeStep, TreeBoxes, TreeShape, Statistics),
     *(Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Adjacent, CrossingEdges, Frame, Mesh, OpenMesh),
 )
 for _public in _PUBLIC:

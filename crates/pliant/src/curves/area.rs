@@ -19,7 +19,8 @@ impl Curve<'_> {
     ///
     /// A curve that goes around a part of a sheet cuts it in two. The area is that of the smaller
     /// part, rounded. It is positive on the left of the curve, where the normal of the sheet points
-    /// up, and negative on the right. What is enclosed twice counts twice. A sheet is all of a mesh that can be reached along edges.
+    /// up, and negative on the right. What is enclosed twice counts twice. A sheet is all of a mesh
+    /// that can be reached along edges.
     ///
     /// None for an open curve, and on a sheet where the curve bounds no part, as around the tube of
     /// a torus. None also if it passes a vertex of the sheet or runs along an edge, or if triangles

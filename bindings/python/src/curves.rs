@@ -5,7 +5,7 @@ use crate::arrays;
 use crate::error::Result;
 use crate::world::World;
 use numpy::{IntoPyArray, PyArrayMethods};
-use pliant::{BodyId, CurveEnd, Feature, Pair};
+use pliant::{CurveEnd, Feature, Pair};
 use pliant_check::with_world;
 use pyo3::prelude::*;
 
@@ -94,13 +94,10 @@ pub(crate) fn curves<'py>(
 
 fn pairs_of(rows: &Any<'_>) -> Result<Vec<Pair>> {
     let rows = arrays::rows_of(rows, "pairs", "queries give")?;
-    let pair = |[body_a, triangle_a, body_b, triangle_b]: [u32; 4]| Pair {
-        body_a: BodyId(body_a),
-        triangle_a,
-        body_b: BodyId(body_b),
-        triangle_b,
-    };
-    Ok(rows.into_iter().map(pair).collect())
+    Ok(rows
+        .into_iter()
+        .map(<Pair as From<[u32; 4]>>::from)
+        .collect())
 }
 
 /// Segments in vectors, one for each array.

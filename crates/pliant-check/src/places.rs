@@ -3,11 +3,12 @@
 //! A place is a connected component of hits. Two triangles of a source are neighbours if they share
 //! a vertex after welding, whatever their bodies. Two pairs are of one place if a triangle of one
 //! equals or neighbours a triangle of the other. Union-find over vertices (`joined`) finds places,
-//! from pairs in any order. Memory: as `joined`, and about 60 bytes for each vertex of a hit.
+//! from pairs in any order. Memory: as `joined`, and about 130 bytes for each vertex of a hit.
 
 use crate::joined::{Joined, Meshes};
 use crate::pieces::NONE;
 use crate::row::Row;
+use pliant_exact::{Precision, intersection};
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, HashMap};
 
@@ -22,10 +23,13 @@ pub struct Place {
     pub first_pair: Row,
     /// Bodies whose triangles intersect here, ascending.
     pub bodies: Vec<BodyThere>,
-    /// Lower corner of the bounding box of these triangles.
+    /// Lower corner of the box of all points in which pairs meet; of pairs that are only close, of
+    /// their triangles.
     pub lower: [f64; 3],
     /// Upper corner.
     pub upper: [f64; 3],
+    /// Length of the segments in which pairs meet, all together.
+    pub length: f64,
 }
 
 /// Triangles of one body in a place.
@@ -74,12 +78,59 @@ impl Place {
 #[derive(Debug, Default)]
 pub struct Places {
     hits: Joined,
-    /// Number of pairs, and the smallest, whose first triangle has this slot for its first corner.
-    pairs: Vec<(u32, Row)>,
+    /// The pairs whose first triangle has this slot for its first corner.
+    pairs: Vec<Pairs>,
     /// Source and vertex of all vertices of places in the frame before, and the number of the
     /// place.
     before: Vec<([u32; 2], usize)>,
     next: usize,
+}
+
+/// Some pairs of a place: how many, the smallest, the box of where they meet, and the length.
+#[derive(Clone, Copy, Debug)]
+struct Pairs {
+    count: usize,
+    smallest: Row,
+    lower: [f64; 3],
+    upper: [f64; 3],
+    length: f64,
+}
+
+impl Pairs {
+    const NONE: Self = Self {
+        count: 0,
+        smallest: [NONE; 4],
+        lower: [f64::INFINITY; 3],
+        upper: [f64::NEG_INFINITY; 3],
+        length: 0.0,
+    };
+
+    fn take(&mut self, row: Row, [a, b]: &[[[f64; 3]; 3]; 2]) {
+        self.count += 1;
+        self.smallest = row.min(self.smallest);
+        let both = intersection(Precision::Double, a, b);
+        let mut last: Option<[f64; 3]> = None;
+        for point in both.ends().map(|end| end.point) {
+            self.hold(point);
+            if let Some(last) = last
+                && both.len() == 2
+            {
+                let squares = (0..3).map(|axis| (point[axis] - last[axis]).powi(2));
+                self.length += squares.sum::<f64>().sqrt();
+            }
+            last = Some(point);
+        }
+        if both.is_empty() {
+            a.iter().chain(b).for_each(|&corner| self.hold(corner));
+        }
+    }
+
+    fn hold(&mut self, point: [f64; 3]) {
+        for axis in 0..3 {
+            self.lower[axis] = self.lower[axis].min(point[axis]);
+            self.upper[axis] = self.upper[axis].max(point[axis]);
+        }
+    }
 }
 
 impl Places {
@@ -101,13 +152,16 @@ impl Places {
     pub fn take(&mut self, meshes: &impl Meshes, of_sources: Row, row: Row) {
         let slot = self.hits.join(meshes, of_sources);
         let slots = self.hits.vertices().len();
-        self.pairs.resize(slots, (0, [NONE; 4]));
+        self.pairs.resize(slots, Pairs::NONE);
         let Some(slot) = slot else {
             return;
         };
-        let (count, smallest) = &mut self.pairs[slot as usize];
-        *count += 1;
-        *smallest = row.min(*smallest);
+        let [source_a, a, source_b, b] = of_sources;
+        let corners = [(source_a, a), (source_b, b)].map(|(source, triangle)| {
+            let corners = meshes.corners(source, triangle);
+            corners.map(|vertex| meshes.position(source, vertex))
+        });
+        self.pairs[slot as usize].take(row, &corners);
     }
 
     /// Forgets the vertices of sources whose mesh has changed since the frame before.
@@ -129,26 +183,27 @@ impl Places {
             let root = self.hits.root(slot as u32) as usize;
             if root == slot {
                 place_of[slot] = found.len() as u32;
+                let none = Pairs::NONE;
                 found.push(Place {
                     number: usize::MAX,
-                    count: 0,
-                    first_pair: [NONE; 4],
+                    count: none.count,
+                    first_pair: none.smallest,
                     bodies: Vec::new(),
-                    lower: [f64::INFINITY; 3],
-                    upper: [f64::NEG_INFINITY; 3],
+                    lower: none.lower,
+                    upper: none.upper,
+                    length: none.length,
                 });
             } else {
                 place_of[slot] = place_of[root];
             }
             let place = &mut found[place_of[slot] as usize];
-            let (count, smallest) = self.pairs[slot];
-            place.count += count as usize;
-            place.first_pair = place.first_pair.min(smallest);
-            let [source, vertex] = self.hits.vertices()[slot];
-            let position = meshes.position(source, vertex);
+            let pairs = &self.pairs[slot];
+            place.count += pairs.count;
+            place.first_pair = place.first_pair.min(pairs.smallest);
+            place.length += pairs.length;
             for axis in 0..3 {
-                place.lower[axis] = place.lower[axis].min(position[axis]);
-                place.upper[axis] = place.upper[axis].max(position[axis]);
+                place.lower[axis] = place.lower[axis].min(pairs.lower[axis]);
+                place.upper[axis] = place.upper[axis].max(pairs.upper[axis]);
             }
         }
         self.say_bodies(meshes, &place_of, &mut found);

@@ -3,7 +3,7 @@
 //! Without these flags no pair is kept and no position is copied.
 
 use crate::output::{self, MARK, Overwrite};
-use crate::table::grouped;
+use crate::table::{grouped, short};
 use anyhow::bail;
 use clap::Args;
 use pliant::{BodyId, Scalar, World};
@@ -256,7 +256,7 @@ impl Watcher {
             count: place.count,
             lower: place.lower,
             upper: place.upper,
-            label: whose(place, &name),
+            label: label(place, &name),
         };
         let spots: Vec<Spot> = places.iter().map(spot).collect();
         if let Some(recorder) = &mut self.recorder {
@@ -321,6 +321,16 @@ fn caption(along: &str, number: u32, pairs: usize, spots: &[Spot]) -> String {
         ),
     };
     format!("{along} {number}: {pairs}{places}")
+}
+
+/// Names of the bodies of a place, and how long the curves there are.
+fn label(place: &Place, name: impl Fn(u32) -> String) -> String {
+    let mut parts = vec![whose(place, name)];
+    if place.length > 0.0 {
+        parts.push(format!("curves {} long", short(place.length)));
+    }
+    parts.retain(|part| !part.is_empty());
+    parts.join(", ")
 }
 
 /// Names of the bodies of a place: the first two, and how many more.

@@ -26,9 +26,20 @@ pub(crate) fn grouped(number: u64) -> String {
     grouped
 }
 
+/// Four significant digits. Enough to read; nobody types them elsewhere.
+pub(crate) fn short(x: f64) -> String {
+    let digits = format!("{x:.3e}");
+    match digits.parse::<f64>() {
+        Ok(rounded) if rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) => {
+            format!("{}", rounded + 0.0)
+        }
+        _ => digits,
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::grouped;
+    use super::{grouped, short};
 
     #[test]
     fn groups_of_three() {
@@ -40,6 +51,21 @@ mod tests {
             (1_310_720, "1,310,720"),
         ] {
             assert_eq!(grouped(number), text);
+        }
+    }
+
+    #[test]
+    fn coordinates_have_four_digits() {
+        for (x, text) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (-1.234_56, "-1.235"),
+            (123_456.0, "123500"),
+            (0.000_123_456, "0.0001235"),
+            (1.0 / 3.0 * 1e-9, "3.333e-10"),
+            (f64::MAX, "1.798e308"),
+        ] {
+            assert_eq!(short(x), text, "{x}");
         }
     }
 }

@@ -44,7 +44,7 @@ pub(crate) struct Frame {
     pub(crate) hits: Hits,
     /// Triangles in `hits` that intersect none but are close to one, sorted.
     pub(crate) near: Vec<u32>,
-    /// Gaps, nearest first; of very many, the nearest.
+    /// Lines: gaps, nearest first, and of very many the nearest; then where pairs meet.
     pub(crate) gaps: Vec<GapShown>,
     /// Whether each box was made for this shape: by body, level and part.
     pub(crate) made: Vec<bool>,
@@ -96,7 +96,7 @@ pub struct Spot {
     pub number: usize,
     /// Number of pairs.
     pub count: usize,
-    /// Lower corner of the bounding box of its triangles.
+    /// Lower corner of its box.
     pub lower: [f64; 3],
     /// Upper corner.
     pub upper: [f64; 3],
@@ -115,7 +115,7 @@ pub struct Gap {
     pub points: [[f64; 3]; 2],
 }
 
-/// A gap, with the triangles of all bodies numbered consecutively.
+/// A line of a gap or a curve, with the triangles of all bodies numbered consecutively.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct GapShown {
     pub(crate) triangles: [u32; 2],

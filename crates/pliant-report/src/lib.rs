@@ -42,6 +42,7 @@ mod colours;
 mod escape;
 mod frames;
 mod label;
+mod lines;
 mod pack;
 mod page;
 pub mod picture;

@@ -8,6 +8,7 @@
 
 use crate::frames::{BodyRecord, Frame, Gap, GapShown, Hits, Moment, Motion, Shape, Spot};
 use crate::label::BodyLabel;
+use crate::lines;
 use pliant::{BodyId, Scalar, World};
 use std::borrow::Cow;
 use std::sync::{Arc, Weak};
@@ -24,6 +25,9 @@ const MOST_PAIRS: usize = 100_000;
 
 /// Most gaps of a frame that are kept, the nearest. Bounds the page.
 const MOST_GAPS: usize = 5_000;
+
+/// Most pairs of a frame whose curves are drawn. Bounds the page.
+const MOST_LINES: usize = 20_000;
 
 /// Most places of a frame that are kept, the largest. Bounds the page.
 const MOST_SPOTS: usize = 40;
@@ -113,7 +117,7 @@ impl Recorder {
         self.frame_with(number, world, pairs, &[], &[]);
     }
 
-    /// [`frame`](Self::frame) with places and gaps.
+    /// [`frame`](Self::frame) with places and gaps. Lines are drawn where pairs meet.
     ///
     /// `spots` are the places of the pairs, most pairs first. `gaps` are the closest points of
     /// pairs that do not intersect, sorted by pair.
@@ -404,7 +408,14 @@ impl Recorder {
                 points: gap.points,
             })
         });
-        let gaps = gaps.collect();
+        let mut gaps: Vec<GapShown> = gaps.collect();
+        if pairs.len() <= MOST_LINES {
+            let lines = lines::of_pairs(world, pairs);
+            gaps.extend(lines.filter_map(|(pair, points)| {
+                let triangles = global_pair(&pair)?;
+                Some(GapShown { triangles, points })
+            }));
+        }
         let (mut shapes, mut made) = (Vec::with_capacity(self.known.len()), Vec::new());
         for (id, body) in &self.known {
             let positions = drawn_positions(world, *id);

@@ -5,6 +5,7 @@
 use pliant_check::{
     Baseline, Check, Found, Frames, Life, Lives, Meshes, Place, Places, Row, Settings, Split,
 };
+use pliant_exact::{Precision, intersection};
 use pliant_io::OpenOptions;
 use proptest::prelude::*;
 use std::cmp::Reverse;
@@ -129,11 +130,27 @@ fn check_place(meshes: &Soup, place: &Place, pairs: &[Row]) {
         .map(|same| (same[0].0, same.len(), same[0].1))
         .collect();
     assert_eq!(said, counted);
-    let corners = triangles.iter().flat_map(|&[source, triangle]| {
+    let corners_of = |&[source, triangle]: &[u32; 2]| {
         let corners = meshes.corners(source, triangle);
         corners.map(|vertex| meshes.position(source, vertex))
-    });
-    let corners: Vec<[f64; 3]> = corners.collect();
+    };
+    // Where pairs meet; else where their triangles are.
+    let mut corners: Vec<[f64; 3]> = Vec::new();
+    let mut length = 0.0;
+    for pair in pairs {
+        let [a, b] = ends(pair).map(|end| corners_of(&end));
+        let points = intersection(Precision::Double, &a, &b);
+        let points: Vec<[f64; 3]> = points.ends().map(|end| end.point).collect();
+        if let [p, q] = points[..] {
+            let squares = (0..3).map(|axis| (q[axis] - p[axis]).powi(2));
+            length += squares.sum::<f64>().sqrt();
+        }
+        if points.is_empty() {
+            corners.extend([a, b].concat());
+        }
+        corners.extend(points);
+    }
+    assert!((place.length - length).abs() < 1e-9 * (1.0 + length));
     for axis in 0..3 {
         let along = || corners.iter().map(|corner| corner[axis]);
         assert_eq!(place.lower[axis], along().fold(f64::INFINITY, f64::min));
@@ -233,6 +250,7 @@ fn of_very_many_places_the_largest_are_kept() {
         bodies: Vec::new(),
         lower: [0.0; 3],
         upper: [1.0, 3.0, 2.0],
+        length: 1.0,
     };
     let mut lives = Lives::new();
     for frame in 0..50 {

@@ -12,10 +12,10 @@ mod pictures;
 pub(crate) use arguments::Arguments;
 
 use crate::outcome::Outcome;
+use crate::table::short;
 use crate::terminal::{complain, note};
 use anyhow::{anyhow, bail};
 use arguments::{Format, Split};
-use figures::short;
 use hits::Hits;
 use output::Output;
 use pictures::Pictures;

@@ -5,11 +5,10 @@
 
 use super::adjacent::AdjacentTally;
 use super::arguments::{Arguments, Split};
-use super::figures::short;
 use super::moments;
 use crate::advice;
 use crate::report::{Watcher, fact};
-use crate::table::grouped;
+use crate::table::{grouped, short};
 use pliant_check::{AnyWorld, Baseline, Check, Found, Interval, Row, with_world};
 use pliant_io::shown;
 use pliant_report::{BodyLabel, Gap, Parts};

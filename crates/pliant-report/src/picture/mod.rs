@@ -99,7 +99,7 @@ pub struct Shot<'a> {
     pub size: [usize; 2],
     /// Direction of view.
     pub view: View,
-    /// Place that fills the picture; `None` for everything.
+    /// Place that fills the picture, with lines where pairs meet; `None` for everything.
     pub spot: Option<&'a Spot>,
     /// Caption: a line of text in the upper left corner, as far as there is room.
     pub caption: String,
@@ -122,7 +122,7 @@ impl Picture {
     pub fn of<S: Scalar>(world: &World<S>, pairs: &[[u32; 4]], size: [usize; 2]) -> Self {
         let directions = View::Corner.directions();
         let triangles = seen_of(world, pairs, directions);
-        draw(&triangles, size, rectangle_of(corners_of(&triangles)))
+        draw(&triangles, &[], size, rectangle_of(corners_of(&triangles)))
     }
 
     /// Draws a picture of a world with the settings of a [`Shot`].
@@ -136,13 +136,14 @@ impl Picture {
         let triangles = seen_of(world, pairs, directions);
         let whole = rectangle_of(corners_of(&triangles));
         let mut picture = match shot.spot {
-            None => draw(&triangles, size, whole),
+            None => draw(&triangles, &[], size, whole),
             Some(spot) => {
                 let there = rectangle_of(box_seen(spot, directions).into_iter());
-                let mut picture = draw(&triangles, size, near(there, whole));
+                let lines = lines_of(world, pairs, directions);
+                let mut picture = draw(&triangles, &lines, size, near(there, whole));
                 let inset = size.map(|length| (INSET * length as f64) as usize);
                 if inset.iter().all(|&length| length > 16) {
-                    let small = draw(&triangles, inset, whole);
+                    let small = draw(&triangles, &[], inset, whole);
                     let marked = mark(there, whole, inset);
                     picture.inlay(&small, marked);
                 }
@@ -274,6 +275,18 @@ fn seen_of<S: Scalar>(
     triangles
 }
 
+/// Lines where pairs meet, in the coordinates of a view.
+fn lines_of<S: Scalar>(
+    world: &World<S>,
+    pairs: &[[u32; 4]],
+    directions: [[f64; 3]; 3],
+) -> Vec<[[f64; 3]; 2]> {
+    let [eye, right, up] = directions;
+    let seen = |point| [dot(point, right), dot(point, up), dot(point, eye)];
+    let lines = crate::lines::of_pairs(world, pairs);
+    lines.map(|(_, line)| line.map(seen)).collect()
+}
+
 /// A rectangle in the view: lower and upper corner.
 type Rectangle = [[f64; 2]; 2];
 
@@ -341,25 +354,34 @@ fn mark(there: Rectangle, whole: Rectangle, size: [usize; 2]) -> [usize; 4] {
     ]
 }
 
-fn draw(triangles: &[Seen], size: [usize; 2], rectangle: Rectangle) -> Picture {
+fn draw(
+    triangles: &[Seen],
+    lines: &[[[f64; 3]; 2]],
+    size: [usize; 2],
+    rectangle: Rectangle,
+) -> Picture {
     let scale = scale_of(rectangle, size);
     let [lower, upper] = rectangle;
     let samples = size.map(|length| 2.0 * length as f64);
     let middle: [f64; 2] = std::array::from_fn(|axis| f64::midpoint(lower[axis], upper[axis]));
     let mut canvas = Canvas::new(size.map(|length| 2 * length), PAPER);
+    let at = |[x, y, z]: [f64; 3]| {
+        [
+            samples[0] / 2.0 + (x - middle[0]) * scale,
+            samples[1] / 2.0 - (y - middle[1]) * scale,
+            z * scale,
+        ]
+    };
     for triangle in triangles {
-        let corners = triangle.corners.map(|[x, y, z]| {
-            [
-                samples[0] / 2.0 + (x - middle[0]) * scale,
-                samples[1] / 2.0 - (y - middle[1]) * scale,
-                z * scale,
-            ]
-        });
+        let corners = triangle.corners.map(at);
         let colour = lit(triangle.colour, corners);
         canvas.triangle(corners, colour, triangle.is_hit);
         if triangle.is_hit {
             canvas.edges_of_small(corners, colour);
         }
+    }
+    for line in lines {
+        canvas.line(line.map(at), INK);
     }
     Picture {
         size,

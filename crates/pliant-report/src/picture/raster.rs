@@ -99,6 +99,28 @@ impl Canvas {
         }
     }
 
+    /// Draws a line in samples, a pixel wide, over everything.
+    pub(super) fn line(&mut self, [p, q]: [[f64; 3]; 2], colour: Colour) {
+        let long = (p[0] - q[0]).abs().max((p[1] - q[1]).abs());
+        if long > 4.0 * (self.size[0] + self.size[1]) as f64 {
+            return;
+        }
+        let steps = long.ceil().max(1.0) as usize;
+        for step in 0..=steps {
+            let part = step as f64 / steps as f64;
+            let [x, y] = [0, 1].map(|axis| p[axis] + part * (q[axis] - p[axis]));
+            for [across, down] in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]] {
+                let (x, y) = (x + across - 0.5, y + down - 0.5);
+                let [width, height] = self.size;
+                if x >= 0.0 && y >= 0.0 && x < width as f64 && y < height as f64 {
+                    let sample = y as usize * width + x as usize;
+                    self.colours[sample] = colour;
+                    self.red[sample] = Red::InFront;
+                }
+            }
+        }
+    }
+
     /// Colours a whole pixel of an intersecting triangle, since one sample would be a quarter as
     /// red.
     fn red_at(&mut self, [x, y, near]: [f64; 3], colour: Colour) {

@@ -1,6 +1,7 @@
 //! Places of pairs in words, one line each, for the table and for annotations.
 
-use crate::check::figures::{counted, short};
+use crate::check::figures::counted;
+use crate::table::short;
 use pliant_check::{Check, Life, Place};
 use pliant_io::shown;
 

@@ -1,8 +1,8 @@
 //! Totals over all frames of a check, and the lines that say them.
 
 use crate::check::adjacent::AdjacentTally;
-use crate::check::figures::{counted, short};
-use crate::table::grouped;
+use crate::check::figures::counted;
+use crate::table::{grouped, short};
 use pliant_check::{Found, Interval, Kinds};
 
 /// Totals over all frames so far.

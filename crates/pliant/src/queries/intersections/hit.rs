@@ -33,6 +33,13 @@ impl From<Pair> for [u32; 4] {
     }
 }
 
+/// From a row of numbers: body, triangle, body, triangle.
+impl From<[u32; 4]> for Pair {
+    fn from(row: [u32; 4]) -> Self {
+        Self::of_numbers(row)
+    }
+}
+
 impl Numbered for Pair {
     #[inline]
     fn numbers(&self) -> [u32; 4] {

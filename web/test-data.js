@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { bodyOf, boxAround, contactShown, partOf, unpack } from './src/data.js';
+import { bodyOf, boxAround, contactShown, cornersOf, partOf, unpack } from './src/data.js';
 
 const program = process.env.PLIANT ?? fileURLToPath(new URL('../target/release/pliant', import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), 'pliant-data-'));
@@ -126,6 +126,24 @@ test('a sequence of polygons and a body that stands still', async () => {
     assert.deepEqual(unpacked.map(([a, b]) => [a.body, a.triangle, b.body, b.triangle]), pairs);
     assert.equal(motion.frames[frame].pairs, count);
     assert.equal(red.length, new Set(pairs.flatMap(([a, b, c, d]) => [`${a} ${b}`, `${c} ${d}`])).size);
+    // Lines where pairs meet: each end is in the planes of both triangles.
+    const { lines } = motion.frames[frame];
+    assert.deepEqual(lines.map(({ triangles: [a, b] }) => `${a} ${b}`).sort(), [...partners.a].map((a, i) => `${a} ${partners.b[i]}`).sort());
+    for (const { triangles, ends } of lines) {
+      for (const end of ends) {
+        const { body, vertices } = cornersOf(end, triangles, motion.bodies);
+        const [p, q] = vertices.map((vertex) => place(frame, body, vertex));
+        const at = p.map((x, axis) => x + end.part * (q[axis] - x));
+        for (const row of triangles) {
+          const { body, triangle } = bodyOf(motion.bodies, row);
+          const [a, b, c] = [0, 1, 2].map((corner) => place(frame, body, motion.bodies[body].corners[3 * triangle + corner]));
+          const [e, f, t] = [b, c, at].map((point) => point.map((x, axis) => x - a[axis]));
+          const n = [0, 1, 2].map((i) => e[(i + 1) % 3] * f[(i + 2) % 3] - e[(i + 2) % 3] * f[(i + 1) % 3]);
+          const off = Math.abs(n.reduce((sum, x, i) => sum + x * t[i], 0)) / Math.hypot(...n) / scale;
+          assert.ok(off < (8 * 18) / 65535, `${off} off the plane`);
+        }
+      }
+    }
   });
   assert.ok(json.frames.some(({ count }) => count > 0) && json.frames.some(({ count }) => count === 0));
 

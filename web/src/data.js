@@ -45,6 +45,16 @@ class Reader {
     return Array.from(a, (one, i) => ({ triangles: [one, b[i]], points: Array.from({ length: 6 }, () => this.float()) }));
   }
 
+  /** Where two triangles of the pairs meet: what either end is on, and how far along that edge. */
+  lines(count, { a, b } = {}) {
+    const pairs = this.words(count);
+    const ends = [0, 1].map(() => [this.slice(count), this.slice(count), this.slice(count)]);
+    return Array.from(pairs, (pair, i) => ({
+      triangles: [a[pair], b[pair]],
+      ends: ends.map(([on, low, high]) => ({ of: on[i] < 6 ? 0 : 1, on: on[i] % 6, part: (low[i] | (high[i] << 8)) / 65535 })),
+    }));
+  }
+
   /** Positions in steps: all x, all y, all z; as differences to one of three predictions. */
   positions(count, last, lastButOne) {
     const mode = this.byte();
@@ -109,6 +119,7 @@ export async function unpack(facts, base64, colours) {
     const b = arePairs ? reader.words(count) : null;
     const near = reader.words(reader.word());
     const gaps = reader.gaps(reader.word());
+    const lines = reader.lines(reader.word(), arePairs ? { a, b } : undefined);
     const made = reader.slice(Math.ceil(bits / 8));
     const moment = facts.moments[at];
     const number = facts.numbers[place];
@@ -124,6 +135,7 @@ export async function unpack(facts, base64, colours) {
       red: arePairs ? distinct(a, b) : a,
       near,
       gaps,
+      lines,
       made,
       places: facts.places[at].map(([number, count, lower, upper, label]) => ({ number, count, lower, upper, label })),
       placeCount: facts.placeCounts[at],
@@ -218,6 +230,7 @@ export function contactShown(bodies, frame, nth) {
     partners: { a, b },
     red: distinct(a, b),
     gaps: pairs.length > 0 ? lines.map((points) => ({ triangles: pairs[0], points: points.flat() })) : [],
+    lines: [],
     // Places of frames count from 0.
     places: [{ number: -1 - nth, count: 1, lower, upper, label }],
     placeCount: moment.count ?? 1,
@@ -246,6 +259,13 @@ function distinct(a, b) {
   all.set(b, a.length);
   all.sort();
   return all.filter((number, i) => i === 0 || number !== all[i - 1]);
+}
+
+/** The corners, or the corner twice, that an end of a line is on. */
+export function cornersOf({ of, on }, triangles, bodies) {
+  const { body, triangle } = bodyOf(bodies, triangles[of]);
+  const vertices = (on < 3 ? [on, on] : [on - 3, (on - 2) % 3]).map((corner) => bodies[body].corners[3 * triangle + corner]);
+  return { body, vertices };
 }
 
 /** The body of a triangle of the row, and its number there. */

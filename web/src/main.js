@@ -184,7 +184,7 @@ function shown(frame) {
   sayBoxes();
   lookedAt();
   charts.forEach((chart) => chart.mark(frame.number));
-  Object.assign(stageBox.dataset, { number: frame.number, pairs: frame.pairs, red, moment: frame.moment ? 'yes' : 'no', near: frame.near.length, gaps: frame.gaps.length });
+  Object.assign(stageBox.dataset, { number: frame.number, pairs: frame.pairs, red, moment: frame.moment ? 'yes' : 'no', near: frame.near.length, gaps: frame.gaps.length, lines: frame.lines.length });
   return red;
 }
 

@@ -5,7 +5,7 @@ import {
   LineSegments, Mesh, MeshLambertMaterial, PerspectiveCamera, Plane, Raycaster, Scene, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { bodyOf, boxAround, partOf } from './data.js';
+import { bodyOf, boxAround, cornersOf, partOf } from './data.js';
 import { colour, element } from './dom.js';
 import { SIZE, areHidden, directions, fit } from './views.js';
 
@@ -117,14 +117,21 @@ export class Stage {
     mesh.geometry.setDrawRange(0, 3 * shown.length);
   }
 
-  /** Lines between bodies that are shown. */
+  /** Lines between triangles that are shown: of gaps, and where they meet. */
   showGaps() {
     const { bodies } = this.motion;
+    const end = (triangles, { part, ...end }) => {
+      const { body, vertices } = cornersOf(end, triangles, bodies);
+      const { array } = this.bodies[body].position;
+      return [0, 1, 2].map((axis) => (1 - part) * array[3 * vertices[0] + axis] + part * array[3 * vertices[1] + axis]);
+    };
     const isShown = ({ triangles }) => triangles.every((row) => {
       const { body, triangle } = bodyOf(bodies, row);
       return this.isShown(body) && this.isTriangleShown(bodies[body], triangle);
     });
-    setLines(this.gaps, new Float32Array((this.frame?.gaps ?? []).filter(isShown).flatMap(({ points }) => points)));
+    const { gaps, lines } = this.frame ?? { gaps: [], lines: [] };
+    const met = lines.filter(isShown).flatMap(({ triangles, ends }) => ends.flatMap((each) => end(triangles, each)));
+    setLines(this.gaps, new Float32Array([...gaps.filter(isShown).flatMap(({ points }) => points), ...met]));
   }
 
   body(body) {

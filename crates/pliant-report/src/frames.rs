@@ -1,7 +1,7 @@
 //! Frames of a motion, as a recorder keeps them.
 
 use crate::label::BodyLabel;
-use pliant::{BodyId, Scalar};
+use pliant::{BodyId, End, Feature, Scalar};
 
 /// Bodies in motion, as a page can hold them: numbers for every frame, shapes for some.
 #[derive(Clone, Debug)]
@@ -44,8 +44,10 @@ pub(crate) struct Frame {
     pub(crate) hits: Hits,
     /// Triangles in `hits` that intersect none but are close to one, sorted.
     pub(crate) near: Vec<u32>,
-    /// Lines: gaps, nearest first, and of very many the nearest; then where pairs meet.
+    /// Gaps, nearest first; of very many, the nearest.
     pub(crate) gaps: Vec<GapShown>,
+    /// Lines where pairs of `hits` meet; none if there are very many.
+    pub(crate) lines: Vec<LineShown>,
     /// Whether each box was made for this shape: by body, level and part.
     pub(crate) made: Vec<bool>,
     /// Places, most pairs first; of very many, the first.
@@ -115,11 +117,46 @@ pub struct Gap {
     pub points: [[f64; 3]; 2],
 }
 
-/// A line of a gap or a curve, with the triangles of all bodies numbered consecutively.
+/// A gap, with the triangles of all bodies numbered consecutively.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct GapShown {
     pub(crate) triangles: [u32; 2],
     pub(crate) points: [[f64; 3]; 2],
+}
+
+/// A line where two triangles meet, numbered consecutively through all bodies.
+///
+/// Its ends are not points but places on the triangles, which the page draws with rounded corners.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct LineShown {
+    pub(crate) triangles: [u32; 2],
+    /// What each end is on: corners 0 to 2 of the first triangle, its edges 3 to 5, and the same of
+    /// the second from 6 on.
+    pub(crate) on: [u8; 2],
+    /// Part of the way along an edge, in steps of 1/65,535.
+    pub(crate) parts: [u16; 2],
+}
+
+impl LineShown {
+    pub(crate) fn new(triangles: [u32; 2], ends: [End; 2]) -> Self {
+        let on = |end: End| {
+            let side = usize::from(end.on[0] == Feature::Inside);
+            let number = match end.on[side] {
+                Feature::Corner(corner) => corner,
+                Feature::Edge(edge) => 3 + edge,
+                // An end that is inside both: there is none.
+                Feature::Inside => 0,
+            };
+            let part = end.parameter[side].unwrap_or_default();
+            ((6 * side + number) as u8, (part * 65_535.0).round() as u16)
+        };
+        let [(on_p, part_p), (on_q, part_q)] = ends.map(on);
+        Self {
+            triangles,
+            on: [on_p, on_q],
+            parts: [part_p, part_q],
+        }
+    }
 }
 
 /// Intersecting triangles of a frame, with the triangles of all bodies numbered consecutively.
@@ -241,7 +278,7 @@ impl Frame {
             .moment
             .iter()
             .map(|moment| 100 + 40 * moment.contacts.len());
-        let near = 4 * self.near.len() + 56 * self.gaps.len();
+        let near = 4 * self.near.len() + 56 * self.gaps.len() + 10 * self.lines.len();
         6 * vertices + hits + near + self.made.len() / 8 + spots.chain(moment).sum::<usize>()
     }
 }

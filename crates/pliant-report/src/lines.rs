@@ -1,25 +1,25 @@
 //! Lines where pairs of triangles meet: segments, and the sides of polygons.
 
-use pliant::{Pair, Scalar, Segments, World};
+use pliant::{End, Pair, Scalar, Segments, World};
 
 /// Lines of pairs, each with its pair: body, triangle, body, triangle. None if a pair is not there.
 pub(crate) fn of_pairs<S: Scalar>(
     world: &World<S>,
     rows: &[[u32; 4]],
-) -> impl Iterator<Item = ([u32; 4], [[f64; 3]; 2])> {
+) -> impl Iterator<Item = ([u32; 4], [End; 2])> {
     let pairs: Vec<Pair> = rows.iter().map(|&row| row.into()).collect();
     let mut segments = Segments::new();
     // If it is refused, there are no segments.
     let _ = segments.update(world, &pairs);
     let sides = segments.iter().flat_map(|segment| {
-        let points: Vec<[f64; 3]> = segment.ends.iter().map(|end| end.point).collect();
-        let count = match points.len() {
+        let ends = segment.ends.to_vec();
+        let count = match ends.len() {
             0 | 1 => 0,
             2 => 1,
             corners => corners,
         };
         let row = segment.pair.into();
-        (0..count).map(move |i| (row, [points[i], points[(i + 1) % points.len()]]))
+        (0..count).map(move |i| (row, [ends[i], ends[(i + 1) % ends.len()]]))
     });
     sides.collect::<Vec<_>>().into_iter()
 }

@@ -6,7 +6,7 @@
 //! lowest first. Positions are coded against the best of three predictions: the vertex before, the
 //! frame before, or linear extrapolation of the last two frames. `web/src/data.js` is the decoder.
 
-use crate::frames::{BodyRecord, Frame, Hits, Motion, Shape};
+use crate::frames::{BodyRecord, Frame, Hits, LineShown, Motion, Shape};
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use std::io::Write;
@@ -118,6 +118,7 @@ impl Motion {
                     }
                 }
             }
+            out.lines(frame);
             let mut made = frame.made.clone();
             made.resize(bits.max(made.len()), false);
             out.bits(&made);
@@ -213,6 +214,28 @@ impl Packer {
                 self.bytes(&(triangles.len() as u32).to_le_bytes());
                 self.bytes(&[0]);
                 self.words(triangles.iter().copied());
+            }
+        }
+    }
+
+    /// Writes lines: the places of their pairs in the list, then ends by ends.
+    fn lines(&mut self, frame: &Frame) {
+        let place = |line: &LineShown| match &frame.hits {
+            Hits::Pairs(pairs) => pairs.binary_search(&line.triangles).ok(),
+            Hits::Triangles(_) => None,
+        };
+        let lines = frame.lines.iter();
+        let lines = lines.filter_map(|line| Some((place(line)? as u32, line)));
+        let lines: Vec<(u32, &LineShown)> = lines.collect();
+        self.bytes(&(lines.len() as u32).to_le_bytes());
+        self.words(lines.iter().map(|&(place, _)| place));
+        for end in 0..2 {
+            let on: Vec<u8> = lines.iter().map(|(_, line)| line.on[end]).collect();
+            self.bytes(&on);
+            for byte in 0..2 {
+                let parts = lines.iter().map(|(_, line)| line.parts[end].to_le_bytes());
+                let plane: Vec<u8> = parts.map(|part| part[byte]).collect();
+                self.bytes(&plane);
             }
         }
     }
@@ -374,6 +397,21 @@ mod tests {
                     points: [[0.5, 0.25, -1.0], [0.5, 0.125, f64::from(frame)]],
                 })
                 .collect(),
+            lines: match frame % 3 {
+                0 => vec![
+                    LineShown {
+                        triangles: [1, 2],
+                        on: [3, 11],
+                        parts: [70, 65_535],
+                    },
+                    LineShown {
+                        triangles: [0, 70_000],
+                        on: [0, 4],
+                        parts: [0, 300],
+                    },
+                ],
+                _ => Vec::new(),
+            },
             made: (0..11)
                 .map(|bit| (bit * bit + frame).is_multiple_of(3))
                 .collect(),
@@ -474,6 +512,21 @@ mod tests {
                         assert!((x + normalisation.centre[axis] - point[axis]).abs() < 1e-12);
                     }
                 }
+            }
+            let count = u32::from_le_bytes(packed.array()) as usize;
+            assert_eq!(count, frame.lines.len());
+            let places = packed.words(count);
+            let ends = [(); 2].map(|()| [(); 3].map(|()| packed.slice(count)));
+            for (number, line) in frame.lines.iter().enumerate() {
+                let Hits::Pairs(pairs) = &frame.hits else {
+                    panic!("lines without pairs");
+                };
+                assert_eq!(pairs[places[number] as usize], line.triangles);
+                let [p, q] = &ends;
+                assert_eq!([p[0][number], q[0][number]], line.on);
+                let part =
+                    |end: &[Vec<u8>; 3]| u16::from_le_bytes([end[1][number], end[2][number]]);
+                assert_eq!([part(p), part(q)], line.parts);
             }
             let bytes = packed.slice(frame.made.len().div_ceil(8));
             let bits = (0..frame.made.len()).map(|bit| bytes[bit / 8] >> (bit % 8) & 1 == 1);

@@ -6,7 +6,9 @@
 //! frames. A moment between frames is kept with the frame before it, and the first moment too, if
 //! there is room.
 
-use crate::frames::{BodyRecord, Frame, Gap, GapShown, Hits, Moment, Motion, Shape, Spot};
+use crate::frames::{
+    BodyRecord, Frame, Gap, GapShown, Hits, LineShown, Moment, Motion, Shape, Spot,
+};
 use crate::label::BodyLabel;
 use crate::lines;
 use pliant::{BodyId, Scalar, World};
@@ -179,6 +181,7 @@ impl Recorder {
             hits: Hits::Pairs(Vec::new()),
             near: Vec::new(),
             gaps: Vec::new(),
+            lines: Vec::new(),
             // The boxes belong to the frame's shape, not to this one.
             made: vec![false; last.frame.made.len()],
             spots: Vec::new(),
@@ -408,12 +411,12 @@ impl Recorder {
                 points: gap.points,
             })
         });
-        let mut gaps: Vec<GapShown> = gaps.collect();
+        let gaps = gaps.collect();
+        let mut lines: Vec<LineShown> = Vec::new();
         if pairs.len() <= MOST_LINES {
-            let lines = lines::of_pairs(world, pairs);
-            gaps.extend(lines.filter_map(|(pair, points)| {
+            lines.extend(lines::of_pairs(world, pairs).filter_map(|(pair, ends)| {
                 let triangles = global_pair(&pair)?;
-                Some(GapShown { triangles, points })
+                Some(LineShown::new(triangles, ends))
             }));
         }
         let (mut shapes, mut made) = (Vec::with_capacity(self.known.len()), Vec::new());
@@ -439,6 +442,7 @@ impl Recorder {
             hits,
             near,
             gaps,
+            lines,
             made,
             spots: Vec::new(),
             all_spots: 0,
@@ -521,6 +525,9 @@ fn in_row(kept: Kept, meshes: &[Arc<BodyRecord>]) -> Frame {
     for gap in &mut frame.gaps {
         gap.triangles.iter_mut().for_each(in_row);
     }
+    for line in &mut frame.lines {
+        line.triangles.iter_mut().for_each(in_row);
+    }
     let mut shapes = std::mem::take(&mut frame.shapes);
     let shapes = places.iter().map(|place| shapes[(*place)?].take());
     frame.shapes = shapes.collect();
@@ -592,7 +599,8 @@ mod tests {
         frames + recorder.cost_of_meshes()
     }
 
-    /// Records a moving triangle. A frame takes 18 bytes and 8 for each pair; the body takes 20.
+    /// Records a moving triangle. A frame takes 18 bytes, and 38 for each pair, as a triangle meets
+    /// itself along three lines. The body takes 20.
     fn record(budget: usize, counts: &[usize]) -> Motion {
         let mut world = World::<f32>::new();
         let body = world
@@ -614,7 +622,7 @@ mod tests {
         let mut counts = [0; 100];
         // The first contact, the most pairs, and as many again.
         (counts[37], counts[71], counts[83]) = (1, 2, 2);
-        let all = 20 + 18 * 100 + 8 * 5;
+        let all = 20 + 18 * 100 + 38 * 5;
         assert_eq!(record(all, &counts).shown().count(), 100);
         for (budget, stride) in [(all - 1, 2), (20 + 18 * 30, 4), (20 + 18 * 20, 8)] {
             let mut expected: Vec<u32> = (0..100).step_by(stride).chain([37, 71, 99]).collect();

@@ -284,7 +284,9 @@ fn lines_of<S: Scalar>(
     let [eye, right, up] = directions;
     let seen = |point| [dot(point, right), dot(point, up), dot(point, eye)];
     let lines = crate::lines::of_pairs(world, pairs);
-    lines.map(|(_, line)| line.map(seen)).collect()
+    lines
+        .map(|(_, ends)| ends.map(|end| seen(end.point)))
+        .collect()
 }
 
 /// A rectangle in the view: lower and upper corner.

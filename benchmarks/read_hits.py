@@ -5,8 +5,8 @@
     target/vtk/bin/python benchmarks/read_hits.py target/release/pliant BODY...
 
 Checks the bodies three times, for JSON, for .vtp and for .vtu, and compares frame by frame. Cells,
-with their bodies, triangles and partners, are compared with the pairs; points of the two readers
-with each other. Fails at the first difference.
+with their bodies, triangles and partners, are compared with the pairs; points and curves of the two
+readers with each other. Fails at the first difference.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ def expected(pairs: list[list[int]]) -> list[tuple[int, int, int]]:
     return [(body, triangle, count) for (body, triangle), count in sorted(partners.items())]
 
 
-def by_vtk(path: Path) -> tuple[list[tuple[int, int, int]], np.ndarray]:
-    """Cells, and the positions of their corners (cells, 3, 3)."""
+def by_vtk(path: Path) -> tuple[list[tuple[int, int, int]], np.ndarray, list[np.ndarray]]:
+    """Triangles, the positions of their corners (cells, 3, 3), and the points of curves."""
     reader = vtkXMLPolyDataReader() if path.suffix == ".vtp" else vtkXMLUnstructuredGridReader()
     problems: list[str] = []
     reader.AddObserver("ErrorEvent", lambda *_: problems.append("error"))
@@ -43,22 +43,34 @@ def by_vtk(path: Path) -> tuple[list[tuple[int, int, int]], np.ndarray]:
     time = vtk_to_numpy(data.GetFieldData().GetArray("TimeValue"))
     assert len(time) == 1
     if data.GetNumberOfCells() == 0:
-        return [], np.zeros((0, 3, 3))
+        return [], np.zeros((0, 3, 3)), []
     arrays = [
         vtk_to_numpy(data.GetCellData().GetArray(name)) for name in ("body", "triangle", "partners")
     ]
-    cells = data.GetPolys() if path.suffix == ".vtp" else data.GetCells()
-    corners = vtk_to_numpy(cells.GetConnectivityArray()).reshape(-1, 3)
-    assert all(data.GetCellType(cell) == 5 for cell in range(data.GetNumberOfCells()))
+    kinds = [data.GetCellType(cell) for cell in range(data.GetNumberOfCells())]
+    points = vtk_to_numpy(data.GetPoints().GetData())
+    of_cells = [
+        points[[data.GetCell(cell).GetPointId(i) for i in range(data.GetCell(cell).GetNumberOfPoints())]]
+        for cell in range(len(kinds))
+    ]
+    is_triangle = np.array(kinds) == 5
+    curve, length = (vtk_to_numpy(data.GetCellData().GetArray(name)) for name in ("curve", "length"))
+    assert ((curve == 0xFFFFFFFF) == is_triangle).all()
+    curves = [line for line, kind in zip(of_cells, kinds) if kind == 4]
+    assert len(curves) + is_triangle.sum() == len(kinds)
+    for line, said in zip(curves, length[~is_triangle]):
+        assert np.isclose(np.linalg.norm(np.diff(line, axis=0), axis=1).sum(), said, rtol=1e-5)
     return (
-        list(zip(*(array.tolist() for array in arrays))),
-        vtk_to_numpy(data.GetPoints().GetData())[corners],
+        list(zip(*(array[is_triangle].tolist() for array in arrays))),
+        np.array([line for line, kind in zip(of_cells, kinds) if kind == 5]),
+        curves,
     )
 
 
 def by_meshio(path: Path) -> tuple[list[tuple[int, int, int]], np.ndarray]:
     mesh = meshio.read(path)
-    arrays = [mesh.cell_data[name][0].tolist() for name in ("body", "triangle", "partners")]
+    where = [block.type for block in mesh.cells].index("triangle")
+    arrays = [mesh.cell_data[name][where].tolist() for name in ("body", "triangle", "partners")]
     return list(zip(*arrays)), mesh.points[mesh.cells_dict["triangle"]]
 
 
@@ -77,20 +89,23 @@ def main() -> None:
         ]
         frames = said[0]["frames"]
         assert frames == said[1]["frames"]
-        total = 0
+        total = lines = 0
         for frame in frames:
             number = str(frame["frame"]).zfill(len(str(len(frames) - 1)))
             ending = "" if len(frames) == 1 else f"_{number}"
-            cells = expected(frame["pairs"])
-            vtp, vtp_corners = by_vtk(folder / f"hits{ending}.vtp")
-            vtu, vtu_corners = by_vtk(folder / f"hits{ending}.vtu")
+            cells = expected(frame["pairs"] + frame.get("adjacent_pairs", []))
+            vtp, vtp_corners, vtp_curves = by_vtk(folder / f"hits{ending}.vtp")
+            vtu, vtu_corners, vtu_curves = by_vtk(folder / f"hits{ending}.vtu")
             assert vtp == vtu == cells, f"frame {number}"
             assert (vtp_corners == vtu_corners).all()
+            assert len(vtp_curves) == len(vtu_curves)
+            assert all((a == b).all() for a, b in zip(vtp_curves, vtu_curves))
             if cells:
                 read, corners = by_meshio(folder / f"hits{ending}.vtu")
                 assert read == cells and (corners == vtu_corners).all(), f"frame {number}"
             total += len(cells)
-        print(f"{len(frames)} frames, {total} triangles: VTK and meshio read what the JSON says")
+            lines += len(vtp_curves)
+        print(f"{len(frames)} frames, {total} triangles, {lines} curves: VTK and meshio read what the JSON says")
 
 
 if __name__ == "__main__":

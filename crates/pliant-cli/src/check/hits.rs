@@ -1,17 +1,22 @@
-//! `--hits`: the triangles that intersect, in [XML files of VTK][vtk] for ParaView.
+//! `--hits`: the triangles that intersect, in [XML files of VTK][vtk] for ParaView, and the curves
+//! in which they meet.
 //!
 //! A file, `.vtp` (polygons) or `.vtu` (unstructured cells), holds the intersecting triangles of
 //! one frame. Cells have the numbers of their `body` and `triangle` and the count of their
-//! `partners`; points have the number of their `vertex`. Of several frames each has a file, even
+//! `partners`; points have the number of their `vertex`. Curves are polylines, cells too, with
+//! their number and `length`. What a cell or a point has not is 4,294,967,295, and a count or a
+//! length 0. A `.vtp` has the curves first, a `.vtu` last. Of several frames each has a file, even
 //! without hits, since ParaView would keep showing the last. A `.pvd` file beside them lists all
 //! files. Arrays are in base64: every bit of a coordinate, and half the size of text.
 //!
 //! [vtk]: https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 
+use super::pictures::of_sources;
 use crate::output::{self, MARK, Overwrite};
 use anyhow::bail;
 use base64::prelude::{BASE64_STANDARD, Engine};
-use pliant_check::{Check, Found};
+use pliant::{Curves, Pair};
+use pliant_check::{Check, Found, with_world};
 use pliant_io::{Precision, shown};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -52,7 +57,26 @@ struct Mesh {
     partners: Vec<u32>,
     /// Indices of points, three a triangle.
     corners: Vec<i64>,
+    curves: Polylines,
 }
+
+/// Curves in which the triangles meet, as polylines.
+#[derive(Default)]
+struct Polylines {
+    points: Vec<[f64; 3]>,
+    /// Indices of these points, one curve after the other. A closed one ends where it begins.
+    along: Vec<i64>,
+    /// Number of indices of all curves up to each.
+    stops: Vec<i64>,
+    lengths: Vec<f64>,
+}
+
+/// Number of a body, a triangle, a vertex or a curve where there is none.
+const NONE: u32 = u32::MAX;
+
+/// Types of cells.
+const TRIANGLE: u8 = 5;
+const POLYLINE: u8 = 4;
 
 impl Hits {
     /// Checks that files can be written for these frames.
@@ -166,6 +190,15 @@ impl Mesh {
                     .push(mesh.points.partition_point(|&point| point < corner) as i64);
             }
         }
+        let pairs: Vec<Pair> = pairs
+            .iter()
+            .map(|&row| of_sources(check, row).into())
+            .collect();
+        let mut curves = Curves::new();
+        // All pairs are of this world, so nothing can be refused.
+        if with_world!(check.world(), world => curves.update(world, &pairs)).is_ok() {
+            mesh.curves = Polylines::of(&curves);
+        }
         mesh
     }
 
@@ -176,36 +209,59 @@ impl Mesh {
         kind: Kind,
         frame: usize,
     ) -> io::Result<()> {
+        let curves = &self.curves;
         let (points, cells) = (self.points.len(), self.bodies.len());
+        let (more_points, lines) = (curves.points.len(), curves.lengths.len());
         begin(out, kind.name())?;
         write!(
             out,
             r#"<FieldData><DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" "#
         )?;
         writeln!(out, r#"format="ascii">{frame}</DataArray></FieldData>"#)?;
-        let (count_of_cells, cells_are) = match kind {
-            Kind::PolyData => ("NumberOfPolys", "Polys"),
-            Kind::UnstructuredGrid => ("NumberOfCells", "Cells"),
-        };
-        writeln!(
-            out,
-            r#"<Piece NumberOfPoints="{points}" {count_of_cells}="{cells}">"#
-        )?;
+        let all_points = points + more_points;
+        match kind {
+            Kind::PolyData => writeln!(
+                out,
+                r#"<Piece NumberOfPoints="{all_points}" NumberOfLines="{lines}" NumberOfPolys="{cells}">"#
+            )?,
+            Kind::UnstructuredGrid => writeln!(
+                out,
+                r#"<Piece NumberOfPoints="{all_points}" NumberOfCells="{}">"#,
+                cells + lines
+            )?,
+        }
 
         writeln!(out, "<PointData>")?;
-        let vertices = self.points.iter().map(|&(_, vertex)| vertex.to_le_bytes());
-        array(out, "UInt32", "vertex", vertices)?;
+        let vertices = self.points.iter().map(|&(_, vertex)| vertex);
+        let vertices = vertices.chain(std::iter::repeat_n(NONE, more_points));
+        array(out, "UInt32", "vertex", vertices.map(u32::to_le_bytes))?;
         writeln!(out, "</PointData>")?;
 
+        // In the order of cells: curves are first in the one kind of file, and last in the other.
+        let (before, behind) = match kind {
+            Kind::PolyData => (lines, 0),
+            Kind::UnstructuredGrid => (0, lines),
+        };
         writeln!(out, r#"<CellData Scalars="partners">"#)?;
-        for (name, numbers) in [
-            ("body", &self.bodies),
-            ("triangle", &self.triangles),
-            ("partners", &self.partners),
+        for (name, numbers, of_curves) in [
+            ("body", &self.bodies, NONE),
+            ("triangle", &self.triangles, NONE),
+            ("partners", &self.partners, 0),
         ] {
-            let numbers = numbers.iter().map(|number| number.to_le_bytes());
-            array(out, "UInt32", name, numbers)?;
+            let numbers = std::iter::repeat_n(of_curves, before)
+                .chain(numbers.iter().copied())
+                .chain(std::iter::repeat_n(of_curves, behind));
+            array(out, "UInt32", name, numbers.map(u32::to_le_bytes))?;
         }
+        let numbers = (0..before as u32)
+            .chain(std::iter::repeat_n(NONE, cells))
+            .chain(0..behind as u32);
+        array(out, "UInt32", "curve", numbers.map(u32::to_le_bytes))?;
+        let [first, last] = [before, behind].map(|count| &curves.lengths[..count]);
+        let lengths = first.iter().copied();
+        let lengths = lengths.chain(std::iter::repeat_n(0.0, cells));
+        let lengths = lengths.chain(last.iter().copied());
+        array(out, "Float64", "length", lengths.map(f64::to_le_bytes))?;
         writeln!(out, "</CellData>")?;
 
         writeln!(out, "<Points>")?;
@@ -213,7 +269,8 @@ impl Mesh {
         let coordinates = self
             .points
             .iter()
-            .flat_map(|&(source, vertex)| sources[source].positions().get(vertex));
+            .flat_map(|&(source, vertex)| sources[source].positions().get(vertex))
+            .chain(curves.points.as_flattened().iter().copied());
         if sources.iter().all(|it| it.precision() == Precision::F32) {
             let coordinates = coordinates.map(|x| (x as f32).to_le_bytes());
             array(out, "Float32", "Points", coordinates)?;
@@ -222,18 +279,57 @@ impl Mesh {
         }
         writeln!(out, "</Points>")?;
 
-        writeln!(out, "<{cells_are}>")?;
-        let corners = self.corners.iter().map(|corner| corner.to_le_bytes());
-        array(out, "Int64", "connectivity", corners)?;
-        let ends = (1..=cells).map(|cell| (3 * cell as i64).to_le_bytes());
-        array(out, "Int64", "offsets", ends)?;
-        if let Kind::UnstructuredGrid = kind {
-            const TRIANGLE: u8 = 5;
-            array(out, "UInt8", "types", (0..cells).map(|_| [TRIANGLE]))?;
+        let along = curves.along.iter().map(|point| point + points as i64);
+        let corners = self.corners.iter().copied();
+        let ends = (1..=cells).map(|cell| 3 * cell as i64);
+        match kind {
+            Kind::PolyData => {
+                list(out, "Lines", along, curves.stops.iter().copied())?;
+                writeln!(out, "</Lines>")?;
+                list(out, "Polys", corners, ends)?;
+                writeln!(out, "</Polys>")?;
+            }
+            Kind::UnstructuredGrid => {
+                let behind = curves.stops.iter().map(|stop| stop + 3 * cells as i64);
+                list(out, "Cells", corners.chain(along), ends.chain(behind))?;
+                let types = std::iter::repeat_n(TRIANGLE, cells);
+                let types = types.chain(std::iter::repeat_n(POLYLINE, lines));
+                array(out, "UInt8", "types", types.map(|kind| [kind]))?;
+                writeln!(out, "</Cells>")?;
+            }
         }
-        writeln!(out, "</{cells_are}>\n</Piece>")?;
+        writeln!(out, "</Piece>")?;
         end(out, kind.name())
     }
+}
+
+impl Polylines {
+    fn of(curves: &Curves) -> Self {
+        let mut all = Self::default();
+        for curve in curves.iter() {
+            let first = all.points.len() as i64;
+            all.points.extend(curve.points());
+            all.along.extend(first..all.points.len() as i64);
+            if curve.is_closed() {
+                all.along.push(first);
+            }
+            all.stops.push(all.along.len() as i64);
+            all.lengths.push(curve.length());
+        }
+        all
+    }
+}
+
+/// Writes cells: the points of each, and where it ends in them.
+fn list(
+    out: &mut dyn Write,
+    name: &str,
+    points: impl Iterator<Item = i64>,
+    ends: impl Iterator<Item = i64>,
+) -> io::Result<()> {
+    writeln!(out, "<{name}>")?;
+    array(out, "Int64", "connectivity", points.map(i64::to_le_bytes))?;
+    array(out, "Int64", "offsets", ends.map(i64::to_le_bytes))
 }
 
 fn begin(out: &mut dyn Write, kind: &str) -> io::Result<()> {

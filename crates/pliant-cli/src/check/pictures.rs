@@ -256,7 +256,7 @@ fn parts(check: &Check, number: usize) -> Parts {
 }
 
 /// Renumbers a pair of bodies as a pair of sources, the smaller first.
-fn of_sources(check: &Check, [body_a, a, body_b, b]: Row) -> Row {
+pub(super) fn of_sources(check: &Check, [body_a, a, body_b, b]: Row) -> Row {
     let source = |body| check.source_of(body).unwrap_or_default() as u32;
     let (one, other) = ((source(body_a), a), (source(body_b), b));
     let ((source_a, a), (source_b, b)) = (one.min(other), one.max(other));

@@ -107,11 +107,12 @@ fn read(path: &Path) -> Vtk {
                 kind: attributes["type"].clone(),
                 bytes: bytes.to_vec(),
             };
-            assert!(
-                vtk.arrays
-                    .insert(attributes["Name"].clone(), array)
-                    .is_none()
-            );
+            let name = &attributes["Name"];
+            let name = match open[open.len() - 2] {
+                "Lines" => format!("Lines {name}"),
+                _ => name.clone(),
+            };
+            assert!(vtk.arrays.insert(name, array).is_none());
         } else if name == "DataArray" {
             vtk.attributes
                 .insert(attributes["Name"].clone(), content.to_owned());
@@ -173,26 +174,43 @@ fn assert_same(vtk: &Vtk, pairs: &serde_json::Value, kind: &str, files: &[&Path]
         let whole = numbers.iter().map(|number| number.to_string().parse());
         whole.collect::<Result<_, _>>().unwrap()
     };
-    let (bodies, triangles) = (whole("body"), whole("triangle"));
-    let cells = if kind == "PolyData" {
-        "Piece NumberOfPolys"
+    // Curves are before the triangles, or behind.
+    let is_curve: Vec<bool> = whole("curve").iter().map(|&it| it != u32::MAX).collect();
+    let lines = is_curve.iter().filter(|is| **is).count();
+    let is_poly = kind == "PolyData";
+    let count = |name: &str| vtk.attributes[name].parse::<usize>().unwrap();
+    if is_poly {
+        assert_eq!(count("Piece NumberOfLines"), lines);
+        assert_eq!(count("Piece NumberOfPolys"), partners.len());
     } else {
-        "Piece NumberOfCells"
+        assert_eq!(count("Piece NumberOfCells"), partners.len() + lines);
+    }
+    let of_triangles = if is_poly { lines.. } else { 0.. };
+    let of_triangles = |name: &str| -> Vec<u32> {
+        let all = &whole(name)[of_triangles.clone()];
+        all[..partners.len()].to_vec()
     };
-    assert_eq!(vtk.attributes[cells], partners.len().to_string());
-    let found = bodies.iter().zip(&triangles).zip(whole("partners"));
+    let (bodies, triangles) = (of_triangles("body"), of_triangles("triangle"));
+    let found = of_triangles("partners");
+    let found = bodies.iter().zip(&triangles).zip(found);
     let found: Vec<_> = found
         .map(|((&body, &triangle), n)| ([body, triangle], n))
         .collect();
     assert_eq!(found, partners.into_iter().collect::<Vec<_>>());
 
     // Corners, by their vertex numbers and by their positions.
-    let (corners, vertices) = (whole("connectivity"), whole("vertex"));
+    let (mut corners, vertices) = (whole("connectivity"), whole("vertex"));
     let offsets: Vec<u32> = (1..=bodies.len() as u32).map(|cell| 3 * cell).collect();
-    assert_eq!(
-        (corners.len(), whole("offsets")),
-        (3 * bodies.len(), offsets)
-    );
+    let mut all_offsets = whole("offsets");
+    let (along, stops) = if is_poly {
+        (whole("Lines connectivity"), whole("Lines offsets"))
+    } else {
+        let stops = all_offsets.split_off(bodies.len());
+        let along = corners.split_off(3 * bodies.len());
+        let from = 3 * bodies.len() as u32;
+        (along, stops.iter().map(|stop| stop - from).collect())
+    };
+    assert_eq!((corners.len(), all_offsets), (3 * bodies.len(), offsets));
     let points = vtk.arrays["Points"].numbers();
     let points: Vec<[f64; 3]> = points
         .chunks(3)
@@ -238,7 +256,28 @@ fn assert_same(vtk: &Vtk, pairs: &serde_json::Value, kind: &str, files: &[&Path]
             );
         }
     }
-    let used: BTreeSet<_> = corners.iter().collect();
+    // Two sheets: a curve goes from border to border, and is as long as it says.
+    assert_eq!((lines > 0, stops.len()), (!bodies.is_empty(), lines));
+    let lengths = vtk.arrays["length"].numbers();
+    let of_lines = lengths.iter().zip(&is_curve).filter(|(_, is)| **is);
+    let mut start = 0;
+    for (&stop, (&length, _)) in stops.iter().zip(of_lines) {
+        let at = |point: &u32| points[*point as usize];
+        let line = &along[start..stop as usize];
+        let sides = line.windows(2).map(|pair| {
+            let [p, q] = [at(&pair[0]), at(&pair[1])];
+            let squares = (0..3).map(|axis| (p[axis] - q[axis]).powi(2));
+            squares.sum::<f64>().sqrt()
+        });
+        assert!((sides.sum::<f64>() - length).abs() < 1e-6 && length > 0.0);
+        assert!(
+            line.iter()
+                .all(|&point| vertices[point as usize] == u32::MAX)
+        );
+        start = stop as usize;
+    }
+    assert_eq!(start, along.len());
+    let used: BTreeSet<_> = corners.iter().chain(&along).collect();
     assert_eq!(used.len(), points.len(), "no point is written for nothing");
 }
 
@@ -258,12 +297,12 @@ fn one_frame_is_one_file() {
         assert_same(&vtk, pairs, kind, &from);
         assert_eq!(vtk.arrays["Points"].kind, "Float64");
         if kind == "UnstructuredGrid" {
-            assert!(
-                vtk.arrays["types"]
-                    .numbers()
-                    .iter()
-                    .all(|&kind| kind == 5.0)
-            );
+            let curves = vtk.arrays["curve"].numbers();
+            let expected = curves.iter().map(|&curve| {
+                let is_curve = curve < f64::from(u32::MAX);
+                if is_curve { 4.0 } else { 5.0 }
+            });
+            assert!(vtk.arrays["types"].numbers().into_iter().eq(expected));
         }
         // Without a printed list, the file is the same.
         let bytes = fs::read(path.join(name)).unwrap();

@@ -135,7 +135,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum, default_value_t = Format::Table)]
     pub(super) format: Format,
     /// Write the triangles that intersect for ParaView, as .vtp or .vtu, and the curves in which
-    /// they meet as polylines. Each of several frames has a file, and a .pvd lists them all
+    /// they meet as lines. Each of several frames has a file, and a .pvd lists them all
     #[arg(long, value_name = "FILE")]
     pub(super) hits: Option<PathBuf>,
     /// Print nothing on standard output; the exit code says whether anything was found

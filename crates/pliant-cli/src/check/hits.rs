@@ -3,9 +3,10 @@
 //!
 //! A file, `.vtp` (polygons) or `.vtu` (unstructured cells), holds the intersecting triangles of
 //! one frame. Cells have the numbers of their `body` and `triangle` and the count of their
-//! `partners`; points have the number of their `vertex`. Curves are polylines, cells too, with
-//! their number and `length`. What a cell or a point has not is 4,294,967,295, and a count or a
-//! length 0. A `.vtp` has the curves first, a `.vtu` last. Of several frames each has a file, even
+//! `partners`; points have the number of their `vertex`. Curves are cells too, with the number and
+//! the `length` of the curve. In a `.vtp` they are polylines before the triangles, in a `.vtu`, for
+//! readers that know no polylines, lines behind them. A number that a cell or a point has not is
+//! 4,294,967,295, a count or a length 0. Of several frames each has a file, even
 //! without hits, since ParaView would keep showing the last. A `.pvd` file beside them lists all
 //! files. Arrays are in base64: every bit of a coordinate, and half the size of text.
 //!
@@ -19,6 +20,7 @@ use pliant::{Curves, Pair};
 use pliant_check::{Check, Found, with_world};
 use pliant_io::{Precision, shown};
 use std::io::{self, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Output files of one check.
@@ -67,8 +69,15 @@ struct Polylines {
     /// Indices of these points, one curve after the other. A closed one ends where it begins.
     along: Vec<i64>,
     /// Number of indices of all curves up to each.
-    stops: Vec<i64>,
+    stops: Vec<usize>,
     lengths: Vec<f64>,
+}
+
+/// A line along a curve.
+struct Line {
+    curve: u32,
+    /// Its points, in `Polylines::along`.
+    along: Range<usize>,
 }
 
 /// Number of a body, a triangle, a vertex or a curve where there is none.
@@ -76,7 +85,7 @@ const NONE: u32 = u32::MAX;
 
 /// Types of cells.
 const TRIANGLE: u8 = 5;
-const POLYLINE: u8 = 4;
+const LINE: u8 = 3;
 
 impl Hits {
     /// Checks that files can be written for these frames.
@@ -211,7 +220,8 @@ impl Mesh {
     ) -> io::Result<()> {
         let curves = &self.curves;
         let (points, cells) = (self.points.len(), self.bodies.len());
-        let (more_points, lines) = (curves.points.len(), curves.lengths.len());
+        let lines = curves.cells(kind);
+        let (more_points, count) = (curves.points.len(), lines.len());
         begin(out, kind.name())?;
         write!(
             out,
@@ -222,12 +232,12 @@ impl Mesh {
         match kind {
             Kind::PolyData => writeln!(
                 out,
-                r#"<Piece NumberOfPoints="{all_points}" NumberOfLines="{lines}" NumberOfPolys="{cells}">"#
+                r#"<Piece NumberOfPoints="{all_points}" NumberOfLines="{count}" NumberOfPolys="{cells}">"#
             )?,
             Kind::UnstructuredGrid => writeln!(
                 out,
                 r#"<Piece NumberOfPoints="{all_points}" NumberOfCells="{}">"#,
-                cells + lines
+                cells + count
             )?,
         }
 
@@ -239,8 +249,8 @@ impl Mesh {
 
         // In the order of cells: curves are first in the one kind of file, and last in the other.
         let (before, behind) = match kind {
-            Kind::PolyData => (lines, 0),
-            Kind::UnstructuredGrid => (0, lines),
+            Kind::PolyData => (&lines[..], &[][..]),
+            Kind::UnstructuredGrid => (&[][..], &lines[..]),
         };
         writeln!(out, r#"<CellData Scalars="partners">"#)?;
         for (name, numbers, of_curves) in [
@@ -248,20 +258,22 @@ impl Mesh {
             ("triangle", &self.triangles, NONE),
             ("partners", &self.partners, 0),
         ] {
-            let numbers = std::iter::repeat_n(of_curves, before)
+            let numbers = std::iter::repeat_n(of_curves, before.len())
                 .chain(numbers.iter().copied())
-                .chain(std::iter::repeat_n(of_curves, behind));
+                .chain(std::iter::repeat_n(of_curves, behind.len()));
             array(out, "UInt32", name, numbers.map(u32::to_le_bytes))?;
         }
-        let numbers = (0..before as u32)
-            .chain(std::iter::repeat_n(NONE, cells))
-            .chain(0..behind as u32);
-        array(out, "UInt32", "curve", numbers.map(u32::to_le_bytes))?;
-        let [first, last] = [before, behind].map(|count| &curves.lengths[..count]);
-        let lengths = first.iter().copied();
-        let lengths = lengths.chain(std::iter::repeat_n(0.0, cells));
-        let lengths = lengths.chain(last.iter().copied());
-        array(out, "Float64", "length", lengths.map(f64::to_le_bytes))?;
+        let of_triangles = std::iter::repeat_n((NONE, 0.0), cells);
+        let of_lines = |lines: &[Line]| -> Vec<(u32, f64)> {
+            let of_line = |line: &Line| (line.curve, curves.lengths[line.curve as usize]);
+            lines.iter().map(of_line).collect()
+        };
+        let of_cells = of_lines(before).into_iter().chain(of_triangles);
+        let of_cells = of_cells.chain(of_lines(behind));
+        let numbers = of_cells.clone().map(|(curve, _)| curve.to_le_bytes());
+        array(out, "UInt32", "curve", numbers)?;
+        let lengths = of_cells.map(|(_, length)| length.to_le_bytes());
+        array(out, "Float64", "length", lengths)?;
         writeln!(out, "</CellData>")?;
 
         writeln!(out, "<Points>")?;
@@ -279,21 +291,30 @@ impl Mesh {
         }
         writeln!(out, "</Points>")?;
 
-        let along = curves.along.iter().map(|point| point + points as i64);
+        let along = lines
+            .iter()
+            .flat_map(|line| &curves.along[line.along.clone()]);
+        let along = along.map(|point| point + points as i64);
+        let mut stop = 0;
+        let mut behind = |line: &Line| {
+            stop += line.along.len() as i64;
+            stop
+        };
+        let stops: Vec<i64> = lines.iter().map(&mut behind).collect();
         let corners = self.corners.iter().copied();
         let ends = (1..=cells).map(|cell| 3 * cell as i64);
         match kind {
             Kind::PolyData => {
-                list(out, "Lines", along, curves.stops.iter().copied())?;
+                list(out, "Lines", along, stops.into_iter())?;
                 writeln!(out, "</Lines>")?;
                 list(out, "Polys", corners, ends)?;
                 writeln!(out, "</Polys>")?;
             }
             Kind::UnstructuredGrid => {
-                let behind = curves.stops.iter().map(|stop| stop + 3 * cells as i64);
+                let behind = stops.iter().map(|stop| stop + 3 * cells as i64);
                 list(out, "Cells", corners.chain(along), ends.chain(behind))?;
                 let types = std::iter::repeat_n(TRIANGLE, cells);
-                let types = types.chain(std::iter::repeat_n(POLYLINE, lines));
+                let types = types.chain(std::iter::repeat_n(LINE, count));
                 array(out, "UInt8", "types", types.map(|kind| [kind]))?;
                 writeln!(out, "</Cells>")?;
             }
@@ -313,10 +334,30 @@ impl Polylines {
             if curve.is_closed() {
                 all.along.push(first);
             }
-            all.stops.push(all.along.len() as i64);
+            all.stops.push(all.along.len());
             all.lengths.push(curve.length());
         }
         all
+    }
+
+    /// The lines of a file: polylines, or the sides of them.
+    fn cells(&self, kind: Kind) -> Vec<Line> {
+        let mut lines = Vec::new();
+        let mut start = 0;
+        for (curve, &stop) in (0..).zip(&self.stops) {
+            match kind {
+                Kind::PolyData => lines.push(Line {
+                    curve,
+                    along: start..stop,
+                }),
+                Kind::UnstructuredGrid => lines.extend((start + 1..stop).map(|next| Line {
+                    curve,
+                    along: next - 1..next + 1,
+                })),
+            }
+            start = stop;
+        }
+        lines
     }
 }
 

@@ -233,7 +233,7 @@ fn hits_pictures_and_pages_show_them() {
     assert_eq!(said.code, 1, "{}", said.err);
     let hits = fs::read_to_string(files.path().join("hits.vtp")).unwrap();
     assert!(
-        hits.contains(r#"NumberOfPoints="5" NumberOfPolys="2""#),
+        hits.contains(r#"NumberOfPoints="7" NumberOfLines="1" NumberOfPolys="2""#),
         "{hits}"
     );
     let page = fs::read_to_string(files.path().join("bow.html")).unwrap();

@@ -143,7 +143,7 @@ fn the_table_separates_thousands_in_counts_and_not_in_numbers_of_triangles() {
     assert_eq!(lines[6], "1 place:");
     assert_eq!(
         lines[7],
-        "  place 0: 1,225 pairs; 148 across, round (74, 49.5, 0); 50 triangles from 1000 on"
+        "  place 0: 1,225 pairs; 146 across, round (74, 49, 0); 50 triangles from 1000 on"
     );
     assert_eq!(
         lines[9],

@@ -140,7 +140,7 @@ fn places_of_table_json_and_annotations_are_the_same() {
     assert_eq!((places.len(), json.get("places_left_out")), (60, None));
     let first = serde_json::json!({
         "number": 2, "frames": [0, 0], "most_pairs": 2, "most_in": 0,
-        "box": [[40.0, -1.0, -1.0], [49.0, 9.0, 7.0]],
+        "box": [[41.0, 0.0, 0.0], [43.0, 0.25, 0.0]],
         "first_pair": [0, 4, 0, 5], "bodies": [{"body": 0, "triangles": 3, "first_triangle": 4}]
     });
     assert_eq!(places[0], first);
@@ -154,8 +154,8 @@ fn places_of_table_json_and_annotations_are_the_same() {
     let table = said("table").out;
     assert!(
         table.contains(
-            "\n60 places, most pairs first:\n  place 2: 2 pairs in frame 0; 10 across, round \
-             (44.5, 4, 3); 3 triangles from 4 on\n"
+            "\n60 places, most pairs first:\n  place 2: 2 pairs in frame 0; 2 across, round \
+             (42, 0.125, 0); 3 triangles from 4 on\n"
         ),
         "{table}"
     );

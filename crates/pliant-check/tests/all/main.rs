@@ -4,6 +4,7 @@
 
 mod against_worlds;
 mod changing;
+mod curves;
 mod formats;
 mod groups;
 mod messages;

@@ -37,6 +37,7 @@ rows! {
     TriangleRow: Triangle, Triangle;
     VertexTriangleRow: Vertex, Triangle;
     EdgeRow: Edge, Edge;
+    EdgeTriangleRow: Edge, Triangle;
 }
 
 /// Changes of rows of one kind.
@@ -44,6 +45,7 @@ enum AnyChanges {
     Triangles(pliant::Changes<TriangleRow>),
     VertexTriangle(pliant::Changes<VertexTriangleRow>),
     EdgeEdge(pliant::Changes<EdgeRow>),
+    EdgeTriangle(pliant::Changes<EdgeTriangleRow>),
 }
 
 macro_rules! with_changes {
@@ -52,6 +54,7 @@ macro_rules! with_changes {
             AnyChanges::Triangles($name) => $work,
             AnyChanges::VertexTriangle($name) => $work,
             AnyChanges::EdgeEdge($name) => $work,
+            AnyChanges::EdgeTriangle($name) => $work,
         }
     };
 }
@@ -66,9 +69,9 @@ macro_rules! with_changes {
 ///         print(len(changed.began), "began,", len(changed.ended), "ended")
 ///
 /// It compares lists of one question, whose rows are of one kind: "triangles" (the default),
-/// "vertex-triangle" or "edge-edge". Each hit has a number, which it keeps while it persists and
-/// which is never used again. A list is a set: any order will do, and the sorted one that queries
-/// give is quickest.
+/// "vertex-triangle", "edge-edge", or "edge-triangle" for crossing edges. Each hit has a number,
+/// which it keeps while it persists and which is never used again. A list is a set: any order will
+/// do, and the sorted one that queries give is quickest.
 ///
 /// Triangles and vertices keep their numbers when a mesh is edited, except where a number is used
 /// again. Tell it of each edit between two lists: edited, split, fused, and edges_edited for edges.
@@ -88,10 +91,11 @@ impl Changes {
             "triangles" => AnyChanges::Triangles(pliant::Changes::new()),
             "vertex-triangle" => AnyChanges::VertexTriangle(pliant::Changes::new()),
             "edge-edge" => AnyChanges::EdgeEdge(pliant::Changes::new()),
+            "edge-triangle" => AnyChanges::EdgeTriangle(pliant::Changes::new()),
             other => {
                 return Err(refused!(BadOption:
                     "kind is {other:?}; it can be one of \"triangles\", \"vertex-triangle\", \
-                     \"edge-edge\""));
+                     \"edge-edge\", \"edge-triangle\""));
             }
         };
         Ok(Self {
@@ -101,8 +105,9 @@ impl Changes {
 
     /// Compares a list with the last one, and remembers it; returns a Changed.
     ///
-    /// Takes rows (k, 4) uint32 as queries give them: pairs of intersections and candidates, the
-    /// pairs of contacts, close pairs and impacts. A row that is there twice is one hit.
+    /// Takes rows (k, 4) uint32 as queries give them: pairs of intersections and candidates,
+    /// crossing edges, the pairs of contacts, close pairs and impacts. A row that is there twice is
+    /// one hit.
     ///
     /// Raises pliant.Error: BadArray for another type or shape.
     ///

@@ -130,8 +130,8 @@ pub(crate) struct GapShown {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LineShown {
     pub(crate) triangles: [u32; 2],
-    /// What each end is on: corners 0 to 2 of the first triangle, its edges 3 to 5, and the same of
-    /// the second from 6 on.
+    /// Features on which the ends are. Corners of the first triangle are 0 to 2, its edges 3 to 5;
+    /// from 6 on come the second one's.
     pub(crate) on: [u8; 2],
     /// Part of the way along an edge, in steps of 1/65,535.
     pub(crate) parts: [u16; 2],

@@ -72,6 +72,7 @@
 //! - **Meshes that change**: [`World::edit`], [`Edit`], [`apply`](World::apply), [`Edited`],
 //!   [`set_mesh`](World::set_mesh). Pieces: [`components`](World::components),
 //!   [`split`](World::split), [`fuse`](World::fuse), [`weld`](World::weld).
+//! - **Where pairs meet**: [`Segments`], [`Curves`], [`Curve::enclosed_areas`], [`Feature`].
 //! - **What is new since the last step**: [`Changes`], [`Changed`]; a hit's two things: [`Listed`].
 //! - **Trees that no longer fit the shape**: [`World::rebuild`],
 //!   [`tree_quality`](World::tree_quality), [`Options::mending`].

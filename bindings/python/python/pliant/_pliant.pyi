@@ -266,7 +266,7 @@ class World:
 class Changes:
     """Memory of the last list of hits: what began, persists and ended is told of the next."""
 
-    def __new__(cls, kind: Literal["triangles", "vertex-triangle", "edge-edge"] = "triangles") -> Changes: ...
+    def __new__(cls, kind: Literal["triangles", "vertex-triangle", "edge-edge", "edge-triangle"] = "triangles") -> Changes: ...
     def update(self, rows: NDArray[np.uint32]) -> Changed:
         """Compares a list with the last one, and remembers it; returns a Changed."""
     def edited(self, body: SupportsIndex, edited: Edited) -> None:

@@ -3,12 +3,11 @@
 //!
 //! A file, `.vtp` (polygons) or `.vtu` (unstructured cells), holds the intersecting triangles of
 //! one frame. Cells have the numbers of their `body` and `triangle` and the count of their
-//! `partners`; points have the number of their `vertex`. Curves are cells too, with the number and
-//! the `length` of the curve. In a `.vtp` they are polylines before the triangles, in a `.vtu`, for
-//! readers that know no polylines, lines behind them. A number that a cell or a point has not is
-//! 4,294,967,295, a count or a length 0. Of several frames each has a file, even
-//! without hits, since ParaView would keep showing the last. A `.pvd` file beside them lists all
-//! files. Arrays are in base64: every bit of a coordinate, and half the size of text.
+//! `partners`; points have the number of their `vertex`. Curves are cells with their number and
+//! `length`: polylines before the triangles, or in a `.vtu` lines behind them. A number that is none
+//! is 4,294,967,295, a count or a length 0. Of several frames each has a file, even without hits,
+//! since ParaView would keep showing the last; a `.pvd` file beside them lists all. Arrays are in
+//! base64: every bit of a coordinate, and half the size of text.
 //!
 //! [vtk]: https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 
@@ -229,17 +228,11 @@ impl Mesh {
         )?;
         writeln!(out, r#"format="ascii">{frame}</DataArray></FieldData>"#)?;
         let all_points = points + more_points;
-        match kind {
-            Kind::PolyData => writeln!(
-                out,
-                r#"<Piece NumberOfPoints="{all_points}" NumberOfLines="{count}" NumberOfPolys="{cells}">"#
-            )?,
-            Kind::UnstructuredGrid => writeln!(
-                out,
-                r#"<Piece NumberOfPoints="{all_points}" NumberOfCells="{}">"#,
-                cells + count
-            )?,
-        }
+        let of_cells = match kind {
+            Kind::PolyData => format!(r#"NumberOfLines="{count}" NumberOfPolys="{cells}""#),
+            Kind::UnstructuredGrid => format!(r#"NumberOfCells="{}""#, cells + count),
+        };
+        writeln!(out, r#"<Piece NumberOfPoints="{all_points}" {of_cells}>"#)?;
 
         writeln!(out, "<PointData>")?;
         let vertices = self.points.iter().map(|&(_, vertex)| vertex);
@@ -268,11 +261,11 @@ impl Mesh {
             let of_line = |line: &Line| (line.curve, curves.lengths[line.curve as usize]);
             lines.iter().map(of_line).collect()
         };
-        let of_cells = of_lines(before).into_iter().chain(of_triangles);
-        let of_cells = of_cells.chain(of_lines(behind));
-        let numbers = of_cells.clone().map(|(curve, _)| curve.to_le_bytes());
+        let all = of_lines(before).into_iter().chain(of_triangles);
+        let all = all.chain(of_lines(behind));
+        let numbers = all.clone().map(|(curve, _)| curve.to_le_bytes());
         array(out, "UInt32", "curve", numbers)?;
-        let lengths = of_cells.map(|(_, length)| length.to_le_bytes());
+        let lengths = all.map(|(_, length)| length.to_le_bytes());
         array(out, "Float64", "length", lengths)?;
         writeln!(out, "</CellData>")?;
 

@@ -4,10 +4,9 @@
 //! A file, `.vtp` (polygons) or `.vtu` (unstructured cells), holds the intersecting triangles of
 //! one frame. Cells have the numbers of their `body` and `triangle` and the count of their
 //! `partners`; points have the number of their `vertex`. Curves are cells with their number and
-//! `length`: polylines before the triangles, or in a `.vtu` lines behind them. A number that is none
-//! is 4,294,967,295, a count or a length 0. Of several frames each has a file, even without hits,
-//! since ParaView would keep showing the last; a `.pvd` file beside them lists all. Arrays are in
-//! base64: every bit of a coordinate, and half the size of text.
+//! `length`: polylines before the triangles, or in a `.vtu` lines behind them. A number that is
+//! none is 4,294,967,295. Of several frames each has a file, even without hits, since ParaView
+//! would keep showing the last; a `.pvd` file beside them lists all.
 //!
 //! [vtk]: https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 
@@ -380,7 +379,8 @@ fn end(out: &mut dyn Write, kind: &str) -> io::Result<()> {
     writeln!(out, "</{kind}>\n</VTKFile>")
 }
 
-/// Writes an array: its length in bytes and its bytes, together in base64.
+/// Writes an array: its length in bytes and its bytes, together in base64, which has every bit and
+/// is half as long as text.
 fn array<const N: usize>(
     out: &mut dyn Write,
     kind: &str,

@@ -7,7 +7,7 @@
 
 use super::contact_kind::{self, ContactKind, overlap_in_plane};
 use super::environment::Precision;
-use super::lattice::{Lattice, on_lattice};
+use super::lattice::on_lattice;
 use super::orientation::{Filtered, Orientation};
 use super::point::{PLANES, Point, Sign, Triangle, projected};
 use super::triangles::triangles_intersect;
@@ -44,9 +44,9 @@ pub fn adjacent_contact(
     b: &Triangle,
     exact: &mut u64,
 ) -> Option<ContactKind> {
-    if let Some([a, b]) = on_lattice(a, b) {
+    if let Some(([a, b], mut lattice)) = on_lattice(a, b) {
         *exact += 1;
-        return beyond_common(numbers, [&a, &b], &mut Lattice);
+        return beyond_common(numbers, [&a, &b], &mut lattice);
     }
     let mut filtered = Filtered::new(precision);
     let contact = beyond_common(numbers, [a, b], &mut filtered);

@@ -1,7 +1,7 @@
 //! Edges of two triangles that cross the other one.
 
 use super::environment::Precision;
-use super::lattice::{Lattice, on_lattice};
+use super::lattice::on_lattice;
 use super::orientation::{Certain, Filtered, Orientation};
 use super::point::{Sign, Triangle};
 use super::triangles::one_side;
@@ -31,7 +31,7 @@ pub fn crossing_edges(precision: Precision, a: &Triangle, b: &Triangle) -> [[boo
         return found;
     }
     match on_lattice(a, b) {
-        Some([a, b]) => of_both(&a, &b, &mut Lattice),
+        Some(([a, b], mut lattice)) => of_both(&a, &b, &mut lattice),
         None => of_both(a, b, &mut Filtered::new(precision)),
     }
 }

@@ -4,27 +4,37 @@
 //! flat faces that touch have fifteen for every pair of triangles. But coordinates that give zeros
 //! are seldom far apart in size. If all are multiples of 2^-38 times the largest, then scaled they
 //! are integers below 2^39, and differences are below 2^40. A determinant of them is a sum of six
-//! products below 2^120: it fits 128 bits, and its sign is exact.
+//! products below 2^120: it fits 128 bits, and its sign is exact. Multiples of 2^-60 fit 192 bits.
 
 use super::orientation::{Orientation, are_from};
 use super::point::{Point, Sign, Triangle};
 
-/// The largest coordinate, scaled, is below twice 2 to this power.
-const BITS: u64 = 38;
+/// The largest coordinate, scaled, is below twice 2 to one of these powers.
+const NARROW: u64 = 38;
+const WIDE: u64 = 60;
 
-/// Two triangles scaled to integers, if that is exact.
+/// Two triangles scaled to integers, if that is exact, and the source of their signs.
+#[inline]
+pub(super) fn on_lattice(a: &Triangle, b: &Triangle) -> Option<([Triangle; 2], Lattice)> {
+    if let Some(both) = scaled(a, b, NARROW) {
+        return Some((both, Lattice { is_wide: false }));
+    }
+    Some((scaled(a, b, WIDE)?, Lattice { is_wide: true }))
+}
+
+/// Two triangles scaled to integers of so many bits, if that is exact.
 ///
 /// ```text
-/// largest of 18 coordinates in [2^k, 2^(k+1))    scale 2^(38 - k): a power of two, so exact
+/// largest of 18 coordinates in [2^k, 2^(k+1))    scale 2^(bits - k): a power of two, so exact
 /// each coordinate, scaled, an integer?           else there is no such lattice
 /// ```
 #[inline]
-pub(super) fn on_lattice(a: &Triangle, b: &Triangle) -> Option<[Triangle; 2]> {
+fn scaled(a: &Triangle, b: &Triangle, bits: u64) -> Option<[Triangle; 2]> {
     let coordinates = a.as_flattened().iter().chain(b.as_flattened());
     let largest = coordinates.fold(0, |largest, x| largest.max(x.to_bits() & !SIGN));
     // Of the scale: the exponent as it is stored, 1023 for one. Where there is none, coordinates
     // are too small, or all are zero.
-    let exponent = 2 * 1023 + BITS - (largest >> 52);
+    let exponent = 2 * 1023 + bits - (largest >> 52);
     if exponent >= 2 * 1023 {
         return None;
     }
@@ -45,14 +55,19 @@ pub(super) fn on_lattice(a: &Triangle, b: &Triangle) -> Option<[Triangle; 2]> {
 
 const SIGN: u64 = 1 << 63;
 
-/// Signs of points whose coordinates are integers below 2^39.
-pub(super) struct Lattice;
+/// Signs of points whose coordinates are integers below 2^39, or 2^61 if it is wide.
+pub(super) struct Lattice {
+    is_wide: bool,
+}
 
 impl Orientation for Lattice {
     #[inline]
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
-        let along = |p: &Point, axis: usize| whole(p[axis] - a[axis]);
-        let difference = |p: &Point| [along(p, 0), along(p, 1), along(p, 2)];
+        if self.is_wide {
+            return wide_sign(a, b, c, d);
+        }
+        // Below 2^40, so that doubles are exact.
+        let difference = |p: &Point| [0, 1, 2].map(|axis| i128::from((p[axis] - a[axis]) as i64));
         let (e1, e2, t) = (difference(b), difference(c), difference(d));
         let normal = |i: usize, j: usize| e1[i] * e2[j] - e1[j] * e2[i];
         (normal(1, 2) * t[0] + normal(2, 0) * t[1] + normal(0, 1) * t[2]).signum() as Sign
@@ -60,16 +75,41 @@ impl Orientation for Lattice {
 
     #[inline]
     fn sign_in_plane(&mut self, a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
-        let difference = |p: [f64; 2]| [whole(p[0] - a[0]), whole(p[1] - a[1])];
+        let difference = |p: [f64; 2]| [0, 1].map(|axis| p[axis] as i64 - a[axis] as i64);
         let (e, t) = (difference(b), difference(c));
-        (e[0] * t[1] - e[1] * t[0]).signum() as Sign
+        (product(e[0], t[1]) - product(e[1], t[0])).signum() as Sign
     }
 }
 
-/// An integer below 2^40, which a difference of two below 2^39 is, exactly.
+fn wide_sign(a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
+    let difference = |p: &Point| [0, 1, 2].map(|axis| p[axis] as i64 - a[axis] as i64);
+    let (e1, e2, t) = (difference(b), difference(c), difference(d));
+    let normal = |i: usize, j: usize| product(e1[i], e2[j]) - product(e1[j], e2[i]);
+    sign_of_sum([normal(1, 2), normal(2, 0), normal(0, 1)], t)
+}
+
 #[inline]
-fn whole(x: f64) -> i128 {
-    i128::from(x as i64)
+fn product(a: i64, b: i64) -> i128 {
+    i128::from(a) * i128::from(b)
+}
+
+/// Sign of a sum of three products of numbers below 2^125 and 2^62, in limbs of 64 bits.
+#[inline]
+fn sign_of_sum(normal: [i128; 3], t: [i64; 3]) -> Sign {
+    const LOW: i128 = u64::MAX as i128;
+    let (mut high, mut low) = (0, 0);
+    for (n, t) in normal.into_iter().zip(t) {
+        // n is its high limb times 2^64, and its low limb, which is not negative.
+        let of_low = (n & LOW) * i128::from(t);
+        high += product((n >> 64) as i64, t) + (of_low >> 64);
+        low += of_low & LOW;
+    }
+    high += low >> 64;
+    if high == 0 {
+        Sign::from(low & LOW != 0)
+    } else {
+        high.signum() as Sign
+    }
 }
 
 #[cfg(test)]
@@ -79,7 +119,7 @@ mod tests {
 
     /// Checks both signs of some corners of a pair, if it is on a lattice.
     fn check(a: &Triangle, b: &Triangle) -> bool {
-        let Some([p, q]) = on_lattice(a, b) else {
+        let Some(([p, q], mut lattice)) = on_lattice(a, b) else {
             return false;
         };
         let corners = |a: &Triangle, b: &Triangle| [a[0], a[1], a[2], b[0], b[1], b[2]];
@@ -89,7 +129,7 @@ mod tests {
             let expected = pliant_oracle::orientation(&a, &b, &c, &d);
             let [p, q, r, s] = i.map(|i| scaled[i]);
             assert_eq!(
-                Lattice.sign(&p, &q, &r, &s),
+                lattice.sign(&p, &q, &r, &s),
                 expected,
                 "{a:?} {b:?} {c:?} {d:?}"
             );
@@ -98,7 +138,7 @@ mod tests {
                 let [p, q, r] = [p, q, s].map(|point| [point[x], point[y]]);
                 let expected = pliant_oracle::orientation_2d(a, b, c);
                 assert_eq!(
-                    Lattice.sign_in_plane(p, q, r),
+                    lattice.sign_in_plane(p, q, r),
                     expected,
                     "{a:?} {b:?} {c:?}"
                 );
@@ -123,19 +163,22 @@ mod tests {
     #[test]
     fn the_largest_integers_there_can_be_fit() {
         let mut random = Random::new(32);
-        let most = (1_i64 << 39) - 1;
-        for round in 0..4_000 {
+        // 2^61 less what doubles leave out.
+        let most = (1_i64 << 61) - (1 << 8);
+        for round in 0..8_000 {
+            // In half of them below 2^39, where the narrow one ends.
+            let (most, narrower) = [(most, 0), ((1 << 39) - 1, 24)][round % 2];
             let mut coordinate = || match random.below(4) {
                 0 => most as f64,
                 1 => -most as f64,
-                2 => (random.bits() as i64 >> 24) as f64,
+                2 => (((random.bits() as i64 >> 11) << random.below(9)) >> narrower) as f64,
                 _ => random.below(7) as f64 - 3.0,
             };
             let mut triangle = || -> Triangle { [0; 3].map(|_| [0; 3].map(|_: i32| coordinate())) };
             let (mut a, b) = (triangle(), triangle());
             a[0][0] = most as f64;
             // At any scale the same integers.
-            let by = 2f64.powi([0, -38, 60, -900][round % 4]);
+            let by = 2f64.powi([0, -60, 40, -900][round / 2 % 4]);
             let [a, b] = [a, b].map(|triangle| triangle.map(|point| point.map(|x| x * by)));
             assert!(check(&a, &b), "{a:?} {b:?}");
         }
@@ -144,17 +187,19 @@ mod tests {
     #[test]
     fn what_is_on_no_lattice_is_said_so() {
         let flat = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
-        let step = 2f64.powi(-38);
+        let step = 2f64.powi(-60);
         let with = |x: f64| on_lattice(&flat, &[[x, 0.0, 0.0], [0.0; 3], [1.0; 3]]).is_some();
-        assert!(with(step) && with(-step) && with(0.0) && with(-0.0) && with(1.0 - step));
+        assert!(
+            with(step) && with(-step) && with(0.0) && with(-0.0) && with(0.25 + 2f64.powi(-54))
+        );
         for x in [
             step / 2.0,
-            1.0 - step / 2.0,
+            1.5 * step,
             -5e-324,
             5e-324,
             1e-310,
             f64::MIN_POSITIVE,
-            0.1,
+            0.0001,
         ] {
             assert!(!with(x), "{x}");
         }

@@ -28,7 +28,7 @@ pub use element_pairs::{
 pub use environment::{Precision, denormals_are_kept, is_in_range};
 pub use gap::are_boxes_within;
 pub use intersection::{End, Feature, Intersection, intersection};
-use lattice::{Lattice, on_lattice};
+use lattice::on_lattice;
 use orientation::{Filtered, Orientation};
 pub use point::{Point, Triangle};
 use std::cmp::Ordering;
@@ -86,7 +86,7 @@ pub fn side_of_plane([a, b, c]: [[f64; 3]; 3], point: [f64; 3]) -> Ordering {
 /// point that it is.
 ///
 /// Adds one to `exact` if floating point alone did not decide. Exact, for coordinates that are [in
-/// range](is_in_range). Integers of 128 bits are asked first, because exact contact mostly has room
+/// range](is_in_range). Integers of 192 bits are asked first, because exact contact mostly has room
 /// in them, then floating point, then expansions. Cost: some hundred nanoseconds. The formulation
 /// is this crate's own, after Guigue and Devillers (2003).
 ///
@@ -100,9 +100,9 @@ pub fn side_of_plane([a, b, c]: [[f64; 3]; 3], point: [f64; 3]) -> Ordering {
 /// ```
 #[inline]
 pub fn intersect(precision: Precision, a: &Triangle, b: &Triangle, exact: &mut u64) -> bool {
-    if let Some([a, b]) = on_lattice(a, b) {
+    if let Some(([a, b], mut lattice)) = on_lattice(a, b) {
         *exact += 1;
-        return triangles::triangles_intersect(&a, &b, &mut Lattice);
+        return triangles::triangles_intersect(&a, &b, &mut lattice);
     }
     let mut filtered = Filtered::new(precision);
     let intersect = triangles::triangles_intersect(a, b, &mut filtered);
@@ -123,7 +123,7 @@ pub fn intersect(precision: Precision, a: &Triangle, b: &Triangle, exact: &mut u
 /// ```
 pub fn contact_kind(precision: Precision, a: &Triangle, b: &Triangle) -> ContactKind {
     match on_lattice(a, b) {
-        Some([a, b]) => contact_kind::contact_kind(&a, &b, &mut Lattice),
+        Some(([a, b], mut lattice)) => contact_kind::contact_kind(&a, &b, &mut lattice),
         None => contact_kind::contact_kind(a, b, &mut Filtered::new(precision)),
     }
 }

@@ -132,7 +132,7 @@ fn holds(triangle: &[Point2; 3], point: Point2, orientation: &mut impl Orientati
 
 #[cfg(test)]
 mod tests {
-    use super::super::lattice::{Lattice as OnLattice, on_lattice};
+    use super::super::lattice::on_lattice;
     use super::super::orientation::{Exact, Filtered};
     use super::*;
 
@@ -230,8 +230,8 @@ mod tests {
                     expected,
                     "{p:?} {q:?}"
                 );
-                if let Some([p, q]) = on_lattice(&p, &q) {
-                    let found = triangles_intersect(&p, &q, &mut OnLattice);
+                if let Some(([p, q], mut lattice)) = on_lattice(&p, &q) {
+                    let found = triangles_intersect(&p, &q, &mut lattice);
                     assert_eq!(found, expected, "{p:?} {q:?}");
                 }
             }

@@ -642,6 +642,29 @@ mod tests {
     }
 
     #[test]
+    fn lines_are_where_triangles_meet() {
+        let mut world = World::<f32>::new();
+        let floor = [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+        let leaf = [[1.0, 1.0, -1.0], [1.0, 1.0, 1.0], [9.0, 1.0, 1.0]];
+        let beside = floor.map(|[x, y, z]| [x + 1.0, y + 1.0, z]);
+        for shape in [floor, leaf, beside] {
+            world.add(&[[0, 1, 2]], &shape).unwrap();
+        }
+        let mut recorder = Recorder::new(Vec::new());
+        recorder.frame(0, &world, &[[0, 0, 1, 0], [0, 0, 2, 0]]);
+        let motion = recorder.finish();
+        let lines = &motion.frames[0].lines;
+        // Edge 1 of the floor and edge 0 of the leaf; then the three sides of a polygon.
+        let first = LineShown {
+            triangles: [0, 1],
+            on: [4, 9],
+            parts: [16_384, 32_768],
+        };
+        assert_eq!((lines[0], lines.len()), (first, 4));
+        assert!(lines[1..].iter().all(|line| line.triangles == [0, 2]));
+    }
+
+    #[test]
     fn a_moment_goes_to_the_next_frame_and_comes_behind_its_own() {
         let shape = |z: f32| [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]];
         let mut world = World::<f32>::new();

@@ -333,6 +333,27 @@ fn one_frame_is_one_file() {
     assert!(!path.join("hits.pvd").exists());
 }
 
+/// A tip through a floor: a closed curve ends where it begins.
+#[test]
+fn a_closed_curve_comes_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let floor = "v -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n";
+    let tip = "v 0 0 -1\nv 3 0 1\nv -3 4 1\nv -3 -4 1\nf 1 3 2\nf 1 4 3\nf 1 2 4\n";
+    fs::write(path.join("floor.obj"), floor).unwrap();
+    fs::write(path.join("tip.obj"), tip).unwrap();
+    let said = check(path, &["floor.obj", "tip.obj", "--hits", "tip.vtp"]);
+    assert_eq!(said.code, 1);
+    let vtk = read(&path.join("tip.vtp"));
+    assert_eq!(vtk.arrays["Lines offsets"].numbers(), [4.0]);
+    let along = vtk.arrays["Lines connectivity"].numbers();
+    assert_eq!((along.len(), along[0]), (4, along[3]));
+    // Half as large as the opening of the tip.
+    let expected = (2.0 * 52f64.sqrt() + 8.0) / 2.0;
+    assert!((vtk.arrays["length"].numbers()[0] - expected).abs() < 1e-12);
+    assert_eq!(vtk.arrays["curve"].numbers()[0], 0.0);
+}
+
 #[test]
 fn several_frames_are_a_collection() {
     let folder = folder();

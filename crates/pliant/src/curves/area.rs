@@ -23,8 +23,8 @@ impl Curve<'_> {
     /// that can be reached along edges.
     ///
     /// None for an open curve, and on a sheet where the curve bounds no part, as around the tube of
-    /// a torus. None also if it passes a vertex of the sheet or runs along an edge, or if triangles
-    /// that it passes are not oriented alike.
+    /// a torus. None also if it passes a vertex of the sheet or runs along an edge, if triangles
+    /// that it passes are not oriented alike, or if the mesh has changed since.
     ///
     /// Cost: O(m + n) for the bodies of the curve.
     ///
@@ -38,6 +38,11 @@ impl Curve<'_> {
             };
             let triangles = world.triangles(chords.body)?;
             let positions = world.positions(chords.body)?;
+            let is_there =
+                |chord: &Chord| triangles.get(chord.triangle as usize) == Some(&chord.vertices);
+            if !chords.all.iter().all(is_there) {
+                return Ok(None);
+            }
             Ok(chords.enclosed(triangles, &positions))
         };
         Ok([area(0)?, area(1)?])

@@ -295,6 +295,24 @@ fn areas_are_what_a_plane_cuts_off() {
 }
 
 #[test]
+fn a_mesh_that_has_changed_since_has_no_area() {
+    let mut world = world(&[ball(5, 7), floor(0.1)]);
+    let all = pairs(&mut world, Selection::Everything);
+    let curves = curves_of(&world, &all);
+    let curve = curves.iter().next().unwrap();
+    assert!(curve.enclosed_areas(&world).unwrap()[0].is_some());
+    let (triangles, positions) = floor(0.5);
+    world.set_mesh(BodyId(0), &triangles, &positions).unwrap();
+    assert_eq!(curve.enclosed_areas(&world).unwrap()[0], None);
+    world.remove(BodyId(0)).unwrap();
+    let error = curve.enclosed_areas(&world).unwrap_err();
+    assert_eq!(
+        (error.body, error.kind),
+        (Some(BodyId(0)), ErrorKind::NoSuchBody)
+    );
+}
+
+#[test]
 fn a_curve_around_the_tube_of_a_torus_encloses_nothing() {
     let of_torus = torus(24, 12);
     let mut world = world(&[of_torus.clone(), floor(0.0123)]);

@@ -4,7 +4,7 @@
 //! flat faces that touch have fifteen for every pair of triangles. But coordinates that give zeros
 //! are seldom far apart in size. If all are multiples of 2^-38 times the largest, then scaled they
 //! are integers below 2^39, and differences are below 2^40. A determinant of them is a sum of six
-//! products below 2^120: it fits 128 bits, and its sign is exact. Multiples of 2^-60 fit 192 bits.
+//! products below 2^120, which fits 128 bits, and of multiples of 2^-60 it fits 192.
 
 use super::orientation::{Orientation, are_from};
 use super::point::{Point, Sign, Triangle};
@@ -22,7 +22,7 @@ pub(super) fn on_lattice(a: &Triangle, b: &Triangle) -> Option<([Triangle; 2], L
     Some((scaled(a, b, WIDE)?, Lattice { is_wide: true }))
 }
 
-/// Two triangles scaled to integers of so many bits, if that is exact.
+/// Two triangles scaled to integers, the largest with one bit more, if that is exact.
 ///
 /// ```text
 /// largest of 18 coordinates in [2^k, 2^(k+1))    scale 2^(bits - k): a power of two, so exact

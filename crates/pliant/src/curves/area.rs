@@ -23,8 +23,8 @@ impl Curve<'_> {
     /// that can be reached along edges.
     ///
     /// None for an open curve, and on a sheet where the curve bounds no part, as around the tube of
-    /// a torus. None also if it passes a vertex of the sheet or runs along an edge, if triangles
-    /// that it passes are not oriented alike, or if the mesh has changed since.
+    /// a torus. None also if it passes a vertex of the sheet or runs along an edge. None if
+    /// triangles that it passes are not oriented alike, or if the mesh has changed since.
     ///
     /// Cost: O(m + n) for the bodies of the curve.
     ///

@@ -1,6 +1,6 @@
 //! Where listed pairs meet: `pliant.segments`, and `pliant.curves`, which links them.
 
-use crate::answers::{Any, Column, Rows, class, named};
+use crate::answers::{Any, Column, Rows, named};
 use crate::arrays;
 use crate::error::Result;
 use crate::world::World;

@@ -8,9 +8,9 @@
 use crate::joined::{Joined, Meshes};
 use crate::pieces::NONE;
 use crate::row::Row;
-use pliant_exact::{Precision, intersection};
+use pliant_exact::{End, Precision, intersection};
 use std::cmp::Reverse;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// A connected region of intersecting pairs in one frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +28,8 @@ pub struct Place {
     pub lower: [f64; 3],
     /// Upper corner.
     pub upper: [f64; 3],
-    /// Length of the segments in which pairs meet, all together.
+    /// Length of the segments in which pairs meet, all together. Triangles of one plane have none,
+    /// and several pairs in one segment, along an edge, have one.
     pub length: f64,
 }
 
@@ -80,6 +81,7 @@ pub struct Places {
     hits: Joined,
     /// The pairs whose first triangle has this slot for its first corner.
     pairs: Vec<Pairs>,
+    along_edges: AlongEdges,
     /// Source and vertex of all vertices of places in the frame before, and the number of the
     /// place.
     before: Vec<([u32; 2], usize)>,
@@ -96,6 +98,19 @@ struct Pairs {
     length: f64,
 }
 
+/// Segments along edges, by the bits of their ends: several pairs of a frame may have one.
+type AlongEdges = HashSet<[[u64; 3]; 2]>;
+
+fn is_along_an_edge(p: End, q: End) -> bool {
+    (0..2).any(|side| (0..3).any(|edge| p.on[side].is_on(edge) && q.on[side].is_on(edge)))
+}
+
+fn bits(p: End, q: End) -> [[u64; 3]; 2] {
+    let mut ends = [p, q].map(|end| end.point.map(|x| (x + 0.0).to_bits()));
+    ends.sort_unstable();
+    ends
+}
+
 impl Pairs {
     const NONE: Self = Self {
         count: 0,
@@ -105,22 +120,20 @@ impl Pairs {
         length: 0.0,
     };
 
-    fn take(&mut self, row: Row, [a, b]: &[[[f64; 3]; 3]; 2]) {
+    fn take(&mut self, row: Row, [a, b]: &[[[f64; 3]; 3]; 2], along_edges: &mut AlongEdges) {
         self.count += 1;
         self.smallest = row.min(self.smallest);
         let both = intersection(Precision::Double, a, b);
-        let mut last: Option<[f64; 3]> = None;
-        for point in both.ends().map(|end| end.point) {
-            self.hold(point);
-            if let Some(last) = last
-                && both.len() == 2
-            {
-                let squares = (0..3).map(|axis| (point[axis] - last[axis]).powi(2));
-                self.length += squares.sum::<f64>().sqrt();
-            }
-            last = Some(point);
+        let ends: Vec<End> = both.ends().collect();
+        ends.iter().for_each(|end| self.hold(end.point));
+        if let [p, q] = ends[..]
+            && !both.is_flat()
+            && (!is_along_an_edge(p, q) || along_edges.insert(bits(p, q)))
+        {
+            let squares = (0..3).map(|axis| (p.point[axis] - q.point[axis]).powi(2));
+            self.length += squares.sum::<f64>().sqrt();
         }
-        if both.is_empty() {
+        if ends.is_empty() {
             a.iter().chain(b).for_each(|&corner| self.hold(corner));
         }
     }
@@ -143,6 +156,7 @@ impl Places {
     pub fn begin(&mut self) {
         self.hits.clear();
         self.pairs.clear();
+        self.along_edges.clear();
     }
 
     /// Takes a pair of triangles of sources, and the same pair as it is in answers.
@@ -161,7 +175,7 @@ impl Places {
             let corners = meshes.corners(source, triangle);
             corners.map(|vertex| meshes.position(source, vertex))
         });
-        self.pairs[slot as usize].take(row, &corners);
+        self.pairs[slot as usize].take(row, &corners, &mut self.along_edges);
     }
 
     /// Forgets the vertices of sources whose mesh has changed since the frame before.

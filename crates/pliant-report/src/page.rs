@@ -10,7 +10,7 @@ use crate::colours::{BODIES, HIT, NEAR, of_line};
 use crate::escape::escape;
 use crate::frames::{Elements, Frame, Motion};
 use crate::pack::{Normalisation, STEPS};
-use crate::recorder::BUDGET;
+use crate::recorder::{BUDGET, MOST_LINES};
 use crate::report::{Play, Report};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -73,6 +73,7 @@ impl Report {
         let motion = play.motion.and_then(|place| self.motions.get(place));
         let mut notes = play.notes.clone();
         notes.extend(motion.and_then(|motion| thinned(motion, &play.along)));
+        notes.extend(motion.and_then(|motion| without_lines(motion, &play.along)));
         json!({
             "name": play.name,
             "along": play.along,
@@ -89,6 +90,18 @@ impl Report {
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; \
     style-src 'unsafe-inline'; img-src data: blob:";
 const NO_SCRIPT: &str = "This report needs JavaScript, which your browser does not run.";
+
+/// Note about frames in which the viewer draws no curves; `None` if there is none.
+fn without_lines(motion: &Motion, along: &str) -> Option<String> {
+    let has_more = motion.frames.iter().any(|frame| {
+        let pairs = motion.pairs[frame.index];
+        frame.moment.is_none() && pairs > MOST_LINES as u64
+    });
+    has_more.then(|| {
+        format!("In {along}s of more than {MOST_LINES} pairs no lines are drawn where these meet.")
+    })
+}
+
 /// Note about frames that the viewer does not show; `None` if it shows all.
 fn thinned(motion: &Motion, along: &str) -> Option<String> {
     let (shown, all) = (motion.shown().count(), motion.numbers.len());

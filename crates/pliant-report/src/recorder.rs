@@ -29,7 +29,7 @@ const MOST_PAIRS: usize = 100_000;
 const MOST_GAPS: usize = 5_000;
 
 /// Most pairs of a frame whose curves are drawn. Bounds the page.
-const MOST_LINES: usize = 20_000;
+pub(crate) const MOST_LINES: usize = 20_000;
 
 /// Most places of a frame that are kept, the largest. Bounds the page.
 const MOST_SPOTS: usize = 40;

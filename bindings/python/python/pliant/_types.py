@@ -253,8 +253,9 @@ class Curves(NamedTuple):
     reversed: NDArray[np.bool_]
     """(s,): whether it goes from the second end of the segment to the first."""
     swapped: NDArray[np.bool_]
-    """(s,): whether the second triangle of the pair is on the first side of the curve. Curves run
-    along n_0 x n_1, the cross product of the normals of both sides."""
+    """(s,): whether the second triangle of the pair is on the first side of the curve. Where
+    surfaces cross, and triangles are oriented alike, curves run along n_0 x n_1, the cross product
+    of the normals of both sides."""
     length: NDArray[np.float64]
     """(c,): sum of the lengths of the segments."""
     closed: NDArray[np.bool_]
@@ -264,12 +265,14 @@ class Curves(NamedTuple):
     areas: NDArray[np.float64] | None
     """(c, 2): the area that it encloses on the sheets of its two sides, of the smaller part;
     positive if that is on the left, where the normal points up. NaN where it is open, bounds no
-    part, or passes a vertex or along an edge of the sheet. None without areas=True."""
+    part, passes a vertex or along an edge of the sheet, or triangles that are not oriented alike or
+    stand twice. None without areas=True."""
     touching: NDArray[np.uint64]
     """(p,): pairs that meet in one point, where no curve is; one for each point."""
 
     def polyline(self, curve: int) -> NDArray[np.float64]:
         """Points along a curve, (n, 3); a closed one does not repeat its first."""
+        curve = range(len(self.closed))[curve]
         own = slice(int(self.offsets[curve]), int(self.offsets[curve + 1]))
         begins, turned = self.segments.offsets[self.steps[own]], self.reversed[own]
         rows = begins + turned
@@ -452,9 +455,10 @@ class Place:
     bodies: tuple[BodyThere, ...]
     """Bodies whose triangles intersect there."""
     lower: tuple[float, float, float]
-    """The smallest coordinates of these triangles."""
+    """The smallest coordinates of where pairs meet; of pairs that are only close, of their
+    triangles."""
     upper: tuple[float, float, float]
-    """The largest coordinates of these triangles."""
+    """The largest."""
 
 
 @dataclass(frozen=True)

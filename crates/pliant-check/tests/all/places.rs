@@ -137,13 +137,20 @@ fn check_place(meshes: &Soup, place: &Place, pairs: &[Row]) {
     // Where pairs meet; else where their triangles are.
     let mut corners: Vec<[f64; 3]> = Vec::new();
     let mut length = 0.0;
+    let mut segments: Vec<[[f64; 3]; 2]> = Vec::new();
     for pair in pairs {
         let [a, b] = ends(pair).map(|end| corners_of(&end));
-        let points = intersection(Precision::Double, &a, &b);
-        let points: Vec<[f64; 3]> = points.ends().map(|end| end.point).collect();
-        if let [p, q] = points[..] {
-            let squares = (0..3).map(|axis| (q[axis] - p[axis]).powi(2));
-            length += squares.sum::<f64>().sqrt();
+        let both = intersection(Precision::Double, &a, &b);
+        let points: Vec<[f64; 3]> = both.ends().map(|end| end.point).collect();
+        if let [p, q] = points[..]
+            && !both.is_flat()
+        {
+            let is_new = |[r, s]: &[[f64; 3]; 2]| [*r, *s] != [p, q] && [*s, *r] != [p, q];
+            if segments.iter().all(is_new) {
+                let squares = (0..3).map(|axis| (q[axis] - p[axis]).powi(2));
+                length += squares.sum::<f64>().sqrt();
+                segments.push([p, q]);
+            }
         }
         if points.is_empty() {
             corners.extend([a, b].concat());

@@ -15,8 +15,8 @@ pub enum Feature {
 }
 
 impl Feature {
-    /// Whether it is on a closed edge.
-    pub(super) fn is_on(self, edge: usize) -> bool {
+    /// Whether it is on an edge, its two corners included.
+    pub fn is_on(self, edge: usize) -> bool {
         match self {
             Self::Corner(i) => i == edge || i == (edge + 1) % 3,
             Self::Edge(i) => i == edge,

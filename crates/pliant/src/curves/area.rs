@@ -11,11 +11,14 @@ use crate::error::Error;
 use crate::ids::BodyId;
 use crate::world::{Scalar, World};
 use pliant_exact::{End, Feature, Point};
-use std::collections::HashMap;
+use std::cmp::Ordering::Less;
+use std::collections::{HashMap, HashSet};
 
 impl Curve<'_> {
-    /// Areas that a closed curve encloses on the sheets of its two sides, in the present shapes of
-    /// the world.
+    /// Areas that a closed curve encloses on the sheets of its two sides.
+    ///
+    /// Ask before the bodies move again: the world must still have the shapes in which the curve
+    /// was found.
     ///
     /// A curve that goes around a part of a sheet cuts it in two. The area is that of the smaller
     /// part, rounded. It is positive on the left of the curve, where the normal of the sheet points
@@ -24,7 +27,7 @@ impl Curve<'_> {
     ///
     /// None for an open curve, and on a sheet where the curve bounds no part, as around the tube of
     /// a torus. None also if it passes a vertex of the sheet or runs along an edge. None if
-    /// triangles that it passes are not oriented alike, or if the mesh has changed since.
+    /// triangles that it passes are not oriented alike, stand twice, or have changed since.
     ///
     /// Cost: O(m + n) for the bodies of the curve.
     ///
@@ -40,7 +43,7 @@ impl Curve<'_> {
             let positions = world.positions(chords.body)?;
             let is_there =
                 |chord: &Chord| triangles.get(chord.triangle as usize) == Some(&chord.vertices);
-            if !chords.all.iter().all(is_there) {
+            if !chords.all.iter().all(is_there) || !chords.are_all(triangles) {
                 return Ok(None);
             }
             Ok(chords.enclosed(triangles, &positions))
@@ -161,14 +164,34 @@ impl Chords {
         for chord in &self.all {
             enclosed += chord.cut_off(&at);
         }
-        // Numbers are known up to a constant: what is outside has the lowest, or the highest.
+        // Numbers are known up to a constant: what is outside has the lowest, or the highest. Where
+        // all vertices are in one part, the other has the next number.
         let from = |outside: i64| enclosed - outside as f64 * whole;
-        let (left, right) = (from(low), from(high));
-        Some(if left.abs() <= right.abs() {
-            left
+        let first = from(low);
+        let second = match low.cmp(&high) {
+            Less => from(high),
+            _ if first > 0.0 => from(low + 1),
+            _ => from(low - 1),
+        };
+        Some(if first.abs() <= second.abs() {
+            first
         } else {
-            right
+            second
         })
+    }
+
+    /// Whether triangles at the edges that the curve crosses are all on its way. One that is not
+    /// stands twice.
+    fn are_all(&self, triangles: &[[u32; 3]]) -> bool {
+        let passed: HashSet<u32> = self.all.iter().map(|chord| chord.triangle).collect();
+        let is_crossed = |[p, q]: [u32; 2]| self.jumps.contains_key(&[p.min(q), p.max(q)]);
+        let vertices: HashSet<u32> = self.jumps.keys().flatten().copied().collect();
+        let is_on_the_way = |(triangle, corners): (u32, &[u32; 3])| {
+            passed.contains(&triangle)
+                || !corners.iter().any(|vertex| vertices.contains(vertex))
+                || !(0..3).any(|i| is_crossed(edge(corners, i)))
+        };
+        (0..).zip(triangles).all(is_on_the_way)
     }
 }
 

@@ -77,7 +77,7 @@ pub enum CurveEnd {
     /// No other segment goes on: at the border of a mesh, where surfaces begin to touch, or where a
     /// pair is not listed.
     Border,
-    /// A vertex that both triangles have.
+    /// A vertex that both triangles have, however many segments end there.
     SharedVertex,
     /// A corner of a polygon in which triangles of one plane overlap.
     Overlap,
@@ -160,7 +160,8 @@ impl Curves {
         })
     }
 
-    /// Places in the list of pairs that meet in one point, where no curve is; one for each point.
+    /// Places in the list of pairs that meet in one point, where no curve and no corner of an overlap
+    /// is; one for each point.
     pub fn points(&self) -> &[usize] {
         &self.places.points
     }
@@ -247,8 +248,8 @@ impl<'c> Curve<'c> {
     ///
     /// It has the direction of the lowest of its segments, along n_0 x n_1, with the triangles of
     /// that pair on its two sides. On the other segments the sides go on from triangle to
-    /// neighbour. If triangles at an edge are oriented alike, the curve runs along n_0 x n_1
-    /// everywhere. Here n_0 and n_1 are the normals of the two sides. On side 0, what is behind
+    /// neighbour. If triangles at an edge are oriented alike, and surfaces do not only touch there,
+    /// the curve runs along n_0 x n_1 everywhere. Here n_0 and n_1 are the normals of the two sides. On side 0, what is behind
     /// side 1 is on the left of the curve. On side 1, what is behind side 0 is on its right.
     pub fn steps(&self) -> &'c [Step] {
         self.steps

@@ -8,7 +8,8 @@ use pliant_exact::{End, Point, Precision, intersection};
 
 /// Where pairs of triangles meet: for each pair of a list a point, a segment or a polygon.
 ///
-/// The pairs may come from any question. Each end of a segment is on a corner, on an edge or inside
+/// The pairs may come from any question. Two triangles that share an edge, and meet nowhere else,
+/// meet in that. Each end of a segment is on a corner, on an edge or inside
 /// of either triangle, and which is exact. Its coordinates are rounded: they are off by at most
 /// 2^-38 of the edge on which it lies, and by four roundings. [`Curves`](crate::Curves) links
 /// segments.
@@ -49,7 +50,7 @@ pub struct Segment<'s> {
     ///
     /// A segment runs along n_a x n_b, the cross product of the normals.
     pub ends: &'s [End],
-    /// Whether the triangles lie in one plane.
+    /// Whether the triangles lie in one plane; always, if neither has an area.
     pub is_flat: bool,
     /// Unit normals of both triangles, (b - a) x (c - a) at length 1. Of a triangle without area it
     /// says nothing.

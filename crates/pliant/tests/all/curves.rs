@@ -294,6 +294,32 @@ fn areas_are_what_a_plane_cuts_off() {
     }
 }
 
+/// All vertices of the floor are outside of a curve round most of it; and triangles stand twice.
+#[test]
+fn areas_where_no_vertex_is_enclosed_and_where_triangles_stand_twice() {
+    let mut box_of_floor = cube([-7.9, -7.8, -1.0], 15.7);
+    let areas = |body: &Mesh| {
+        let mut world = world(&[body.clone(), floor(0.1)]);
+        let all = pairs(&mut world, Selection::World);
+        let curves = curves_of(&world, &all);
+        let curve = curves.iter().next().unwrap();
+        (curves.len(), curve.enclosed_areas(&world).unwrap())
+    };
+    let (count, [on_cube, on_floor]) = areas(&box_of_floor);
+    assert_eq!(count, 1);
+    let whole = area_below(&floor(0.1), 1.0);
+    let inside = 15.7 * 15.7;
+    assert!(whole < 2.0 * inside, "the smaller part is outside");
+    // On the right is what is in the cube, so the rest is on the left.
+    assert!((on_floor.unwrap() - (whole - inside)).abs() < 1e-9);
+    let below = inside + 4.0 * 15.7 * 1.1;
+    assert!((on_cube.unwrap() - below).abs() < 1e-9);
+    let twice = box_of_floor.0.clone();
+    box_of_floor.0.extend(twice);
+    let (_, [on_cube, _]) = areas(&box_of_floor);
+    assert_eq!(on_cube, None);
+}
+
 #[test]
 fn a_mesh_that_has_changed_since_has_no_area() {
     let mut world = world(&[ball(5, 7), floor(0.1)]);

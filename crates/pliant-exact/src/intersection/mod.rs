@@ -74,7 +74,7 @@ impl Intersection<'_> {
 /// On which corner, edge or inside an end lies is exact, and so is the position of a corner.
 /// Another position is off by at most 2^-38 of the edge that it lies on, and by four roundings of
 /// its coordinates. A parameter is off by at most 2^-38. Where an edge goes through the inside of a
-/// triangle, both depend only on these two: every triangle that has the edge gives the same bits.
+/// triangle, both depend only on these two. So every triangle that has the edge gives the same.
 ///
 /// A segment runs along n_a x n_b, where n_a and n_b are the normals (b - a) x (c - a) of both. A
 /// triangle without area is the segment or point that it is. Of the edges and corners of it that

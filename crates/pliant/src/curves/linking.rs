@@ -160,8 +160,8 @@ impl Curves {
         })
     }
 
-    /// Places in the list of pairs that meet in one point, where no curve and no corner of an overlap
-    /// is; one for each point.
+    /// Places in the list of pairs that meet in one point, where no curve and no corner of an
+    /// overlap is; one for each point.
     pub fn points(&self) -> &[usize] {
         &self.places.points
     }
@@ -249,8 +249,9 @@ impl<'c> Curve<'c> {
     /// It has the direction of the lowest of its segments, along n_0 x n_1, with the triangles of
     /// that pair on its two sides. On the other segments the sides go on from triangle to
     /// neighbour. If triangles at an edge are oriented alike, and surfaces do not only touch there,
-    /// the curve runs along n_0 x n_1 everywhere. Here n_0 and n_1 are the normals of the two sides. On side 0, what is behind
-    /// side 1 is on the left of the curve. On side 1, what is behind side 0 is on its right.
+    /// the curve runs along n_0 x n_1 everywhere. Here n_0 and n_1 are the normals of the two
+    /// sides. On side 0, what is behind side 1 is on the left of the curve. On side 1, what is
+    /// behind side 0 is on its right.
     pub fn steps(&self) -> &'c [Step] {
         self.steps
     }

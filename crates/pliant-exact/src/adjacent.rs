@@ -44,7 +44,7 @@ pub fn adjacent_contact(
     b: &Triangle,
     exact: &mut u64,
 ) -> Option<ContactKind> {
-    if let Some(([a, b], mut lattice)) = on_lattice(a, b) {
+    if let Some(([a, b], mut lattice)) = on_lattice(precision, a, b) {
         *exact += 1;
         return beyond_common(numbers, [&a, &b], &mut lattice);
     }

@@ -30,7 +30,7 @@ pub fn crossing_edges(precision: Precision, a: &Triangle, b: &Triangle) -> [[boo
     if certain.are_all() {
         return found;
     }
-    match on_lattice(a, b) {
+    match on_lattice(precision, a, b) {
         Some(([a, b], mut lattice)) => of_both(&a, &b, &mut lattice),
         None => of_both(a, b, &mut Filtered::new(precision)),
     }

@@ -6,6 +6,7 @@
 //! are integers below 2^39, and differences are below 2^40. A determinant of them is a sum of six
 //! products below 2^120, which fits 128 bits, and of multiples of 2^-60 it fits 192.
 
+use super::environment::Precision;
 use super::orientation::{Orientation, are_from};
 use super::point::{Point, Sign, Triangle};
 
@@ -13,11 +14,19 @@ use super::point::{Point, Sign, Triangle};
 const NARROW: u64 = 38;
 const WIDE: u64 = 60;
 
-/// Two triangles scaled to integers, if that is exact, and the source of their signs.
+/// Two triangles scaled to integers, if that is exact, and the source of their signs. The wide
+/// lattice pays in double precision only.
 #[inline]
-pub(super) fn on_lattice(a: &Triangle, b: &Triangle) -> Option<([Triangle; 2], Lattice)> {
+pub(super) fn on_lattice(
+    precision: Precision,
+    a: &Triangle,
+    b: &Triangle,
+) -> Option<([Triangle; 2], Lattice)> {
     if let Some(both) = scaled(a, b, NARROW) {
         return Some((both, Lattice { is_wide: false }));
+    }
+    if precision == Precision::Single {
+        return None;
     }
     Some((scaled(a, b, WIDE)?, Lattice { is_wide: true }))
 }
@@ -119,7 +128,7 @@ mod tests {
 
     /// Checks both signs of some corners of a pair, if it is on a lattice.
     fn check(a: &Triangle, b: &Triangle) -> bool {
-        let Some(([p, q], mut lattice)) = on_lattice(a, b) else {
+        let Some(([p, q], mut lattice)) = on_lattice(Precision::Double, a, b) else {
             return false;
         };
         let corners = |a: &Triangle, b: &Triangle| [a[0], a[1], a[2], b[0], b[1], b[2]];
@@ -188,7 +197,14 @@ mod tests {
     fn what_is_on_no_lattice_is_said_so() {
         let flat = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
         let step = 2f64.powi(-60);
-        let with = |x: f64| on_lattice(&flat, &[[x, 0.0, 0.0], [0.0; 3], [1.0; 3]]).is_some();
+        let with = |x: f64| {
+            on_lattice(
+                Precision::Double,
+                &flat,
+                &[[x, 0.0, 0.0], [0.0; 3], [1.0; 3]],
+            )
+            .is_some()
+        };
         assert!(
             with(step) && with(-step) && with(0.0) && with(-0.0) && with(0.25 + 2f64.powi(-54))
         );
@@ -204,10 +220,17 @@ mod tests {
             assert!(!with(x), "{x}");
         }
         // The largest may be negative; zero alone, and the smallest numbers, have none.
-        assert!(on_lattice(&flat, &[[-1024.0, step * 1024.0, 0.0]; 3]).is_some());
-        assert!(on_lattice(&flat, &[[-1024.0, step * 512.0, 0.0]; 3]).is_none());
-        assert!(on_lattice(&[[0.0; 3]; 3], &[[0.0; 3]; 3]).is_none());
-        assert!(on_lattice(&[[5e-324; 3]; 3], &[[0.0; 3]; 3]).is_none());
+        assert!(
+            on_lattice(
+                Precision::Double,
+                &flat,
+                &[[-1024.0, step * 1024.0, 0.0]; 3]
+            )
+            .is_some()
+        );
+        assert!(on_lattice(Precision::Double, &flat, &[[-1024.0, step * 512.0, 0.0]; 3]).is_none());
+        assert!(on_lattice(Precision::Double, &[[0.0; 3]; 3], &[[0.0; 3]; 3]).is_none());
+        assert!(on_lattice(Precision::Double, &[[5e-324; 3]; 3], &[[0.0; 3]; 3]).is_none());
         // Nor does a thread that flushes subnormal numbers take them for zero.
         let tiny = [5e-324, -1e-310, 2f64.powi(-1030)];
         let in_flushed = subnormals_flushed(move || tiny.map(with));

@@ -100,7 +100,7 @@ pub fn side_of_plane([a, b, c]: [[f64; 3]; 3], point: [f64; 3]) -> Ordering {
 /// ```
 #[inline]
 pub fn intersect(precision: Precision, a: &Triangle, b: &Triangle, exact: &mut u64) -> bool {
-    if let Some(([a, b], mut lattice)) = on_lattice(a, b) {
+    if let Some(([a, b], mut lattice)) = on_lattice(precision, a, b) {
         *exact += 1;
         return triangles::triangles_intersect(&a, &b, &mut lattice);
     }
@@ -122,7 +122,7 @@ pub fn intersect(precision: Precision, a: &Triangle, b: &Triangle, exact: &mut u
 /// assert_eq!([0.0, -1e-300].map(kind), [ContactKind::Touching, ContactKind::Crossing]);
 /// ```
 pub fn contact_kind(precision: Precision, a: &Triangle, b: &Triangle) -> ContactKind {
-    match on_lattice(a, b) {
+    match on_lattice(precision, a, b) {
         Some(([a, b], mut lattice)) => contact_kind::contact_kind(&a, &b, &mut lattice),
         None => contact_kind::contact_kind(a, b, &mut Filtered::new(precision)),
     }

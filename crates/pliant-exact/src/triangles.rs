@@ -230,7 +230,7 @@ mod tests {
                     expected,
                     "{p:?} {q:?}"
                 );
-                if let Some(([p, q], mut lattice)) = on_lattice(&p, &q) {
+                if let Some(([p, q], mut lattice)) = on_lattice(crate::Precision::Double, &p, &q) {
                     let found = triangles_intersect(&p, &q, &mut lattice);
                     assert_eq!(found, expected, "{p:?} {q:?}");
                 }

@@ -5,7 +5,7 @@ use crate::arrays;
 use crate::error::Result;
 use crate::world::World;
 use numpy::{IntoPyArray, PyArrayMethods};
-use pliant::{CurveEnd, Feature, Pair};
+use pliant::Pair;
 use pliant_check::with_world;
 use pyo3::prelude::*;
 
@@ -94,10 +94,7 @@ pub(crate) fn curves<'py>(
 
 fn pairs_of(rows: &Any<'_>) -> Result<Vec<Pair>> {
     let rows = arrays::rows_of(rows, "pairs", "queries give")?;
-    Ok(rows
-        .into_iter()
-        .map(<Pair as From<[u32; 4]>>::from)
-        .collect())
+    Ok(rows.into_iter().map(<[u32; 4]>::into).collect())
 }
 
 /// Segments in vectors, one for each array.
@@ -123,7 +120,7 @@ impl SegmentColumns {
         Self {
             offsets,
             points: ends.clone().map(|end| end.point).collect(),
-            on: ends.clone().map(|end| end.on.map(number)).collect(),
+            on: ends.clone().map(|end| end.on.map(u8::from)).collect(),
             parameters: ends
                 .map(|end| end.parameter.map(|t| t.unwrap_or(f64::NAN)))
                 .collect(),
@@ -142,15 +139,6 @@ impl SegmentColumns {
             parameters = Rows(self.parameters),
             normals = normals.reshape([pairs, 2, 3])?,
             flat = Column(self.flat))
-    }
-}
-
-/// A feature as a number: a corner, 3 and the number of an edge, or 6 for the inside.
-fn number(on: Feature) -> u8 {
-    match on {
-        Feature::Corner(corner) => corner as u8,
-        Feature::Edge(edge) => 3 + edge as u8,
-        Feature::Inside => 6,
     }
 }
 
@@ -175,14 +163,10 @@ impl CurveColumns {
             offsets.push(offsets[offsets.len() - 1] + curve.steps().len() as u64);
         }
         let steps = || curves.iter().flat_map(|curve| curve.steps());
-        let end = |end| match end {
-            CurveEnd::Border => 0,
-            CurveEnd::SharedVertex => 1,
-            CurveEnd::Overlap => 2,
-            CurveEnd::Branching => 3,
+        let ends = |curve: pliant::Curve<'_>| {
+            let ends = curve.ends();
+            ends.map_or([NO_END; 2], |ends| ends.map(|end| end as u8))
         };
-        let ends =
-            |curve: pliant::Curve<'_>| curve.ends().map_or([NO_END; 2], |ends| ends.map(end));
         Self {
             segments: SegmentColumns::of(curves.segments()),
             offsets,
@@ -193,7 +177,7 @@ impl CurveColumns {
             closed: curves.iter().map(|curve| curve.is_closed()).collect(),
             ends: curves.iter().map(ends).collect(),
             areas: Vec::new(),
-            touching: curves.points().iter().map(|&pair| pair as u64).collect(),
+            touching: curves.touching().iter().map(|&pair| pair as u64).collect(),
         }
     }
 }

@@ -44,9 +44,11 @@ pub fn adjacent_contact(
     b: &Triangle,
     exact: &mut u64,
 ) -> Option<ContactKind> {
-    if let Some(([a, b], mut lattice)) = on_lattice(precision, a, b) {
+    if let Some(contact) = on_lattice!(precision, a, b, |a, b, signs| {
+        beyond_common(numbers, [&a, &b], signs)
+    }) {
         *exact += 1;
-        return beyond_common(numbers, [&a, &b], &mut lattice);
+        return contact;
     }
     let mut filtered = Filtered::new(precision);
     let contact = beyond_common(numbers, [a, b], &mut filtered);

@@ -30,10 +30,8 @@ pub fn crossing_edges(precision: Precision, a: &Triangle, b: &Triangle) -> [[boo
     if certain.are_all() {
         return found;
     }
-    match on_lattice(precision, a, b) {
-        Some(([a, b], mut lattice)) => of_both(&a, &b, &mut lattice),
-        None => of_both(a, b, &mut Filtered::new(precision)),
-    }
+    on_lattice!(precision, a, b, |a, b, signs| of_both(&a, &b, signs))
+        .unwrap_or_else(|| of_both(a, b, &mut Filtered::new(precision)))
 }
 
 fn of_both(a: &Triangle, b: &Triangle, orientation: &mut impl Orientation) -> [[bool; 3]; 2] {

@@ -6,44 +6,45 @@
 //! are integers below 2^39, and differences are below 2^40. A determinant of them is a sum of six
 //! products below 2^120, which fits 128 bits, and of multiples of 2^-60 it fits 192.
 
-use super::environment::Precision;
 use super::orientation::{Orientation, are_from};
 use super::point::{Point, Sign, Triangle};
 
 /// The largest coordinate, scaled, is below twice 2 to one of these powers.
-const NARROW: u64 = 38;
-const WIDE: u64 = 60;
+pub(super) const NARROW: u64 = 38;
+pub(super) const WIDE: u64 = 60;
 
-/// Two triangles scaled to integers, if that is exact, and the source of their signs. The wide
-/// lattice pays in double precision only.
-#[inline]
-pub(super) fn on_lattice(
-    precision: Precision,
-    a: &Triangle,
-    b: &Triangle,
-) -> Option<([Triangle; 2], Lattice)> {
-    if let Some(both) = scaled(a, b, NARROW) {
-        return Some((both, Lattice { is_wide: false }));
-    }
-    if precision == Precision::Single {
-        return None;
-    }
-    Some((scaled(a, b, WIDE)?, Lattice { is_wide: true }))
+/// Decides by the signs of a lattice that two triangles are on, if there is one. The wide lattice
+/// pays in double precision only. A macro, because the two sources of signs are two types.
+macro_rules! on_lattice {
+    ($precision:expr, $a:expr, $b:expr, |$p:ident, $q:ident, $signs:ident| $decision:expr) => {
+        if let Some([$p, $q]) = $crate::lattice::scaled::<{ $crate::lattice::NARROW }>($a, $b) {
+            let $signs = &mut $crate::lattice::Narrow;
+            Some($decision)
+        } else if $precision == $crate::Precision::Double
+            && let Some([$p, $q]) = $crate::lattice::scaled::<{ $crate::lattice::WIDE }>($a, $b)
+        {
+            let $signs = &mut $crate::lattice::Wide;
+            Some($decision)
+        } else {
+            None
+        }
+    };
 }
+pub(super) use on_lattice;
 
 /// Two triangles scaled to integers, the largest with one bit more, if that is exact.
 ///
 /// ```text
-/// largest of 18 coordinates in [2^k, 2^(k+1))    scale 2^(bits - k): a power of two, so exact
+/// largest of 18 coordinates in [2^k, 2^(k+1))    scale 2^(BITS - k): a power of two, so exact
 /// each coordinate, scaled, an integer?           else there is no such lattice
 /// ```
 #[inline]
-fn scaled(a: &Triangle, b: &Triangle, bits: u64) -> Option<[Triangle; 2]> {
+pub(super) fn scaled<const BITS: u64>(a: &Triangle, b: &Triangle) -> Option<[Triangle; 2]> {
     let coordinates = a.as_flattened().iter().chain(b.as_flattened());
     let largest = coordinates.fold(0, |largest, x| largest.max(x.to_bits() & !SIGN));
     // Of the scale: the exponent as it is stored, 1023 for one. Where there is none, coordinates
     // are too small, or all are zero.
-    let exponent = 2 * 1023 + bits - (largest >> 52);
+    let exponent = 2 * 1023 + BITS - (largest >> 52);
     if exponent >= 2 * 1023 {
         return None;
     }
@@ -64,19 +65,14 @@ fn scaled(a: &Triangle, b: &Triangle, bits: u64) -> Option<[Triangle; 2]> {
 
 const SIGN: u64 = 1 << 63;
 
-/// Signs of points whose coordinates are integers below 2^39, or 2^61 if it is wide.
-pub(super) struct Lattice {
-    is_wide: bool,
-}
+/// Signs of points whose coordinates are integers below 2^39.
+pub(super) struct Narrow;
 
-impl Orientation for Lattice {
+impl Orientation for Narrow {
     #[inline]
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
-        if self.is_wide {
-            return wide_sign(a, b, c, d);
-        }
-        // Below 2^40, so that doubles are exact.
-        let difference = |p: &Point| [0, 1, 2].map(|axis| i128::from((p[axis] - a[axis]) as i64));
+        let along = |p: &Point, axis: usize| whole(p[axis] - a[axis]);
+        let difference = |p: &Point| [along(p, 0), along(p, 1), along(p, 2)];
         let (e1, e2, t) = (difference(b), difference(c), difference(d));
         let normal = |i: usize, j: usize| e1[i] * e2[j] - e1[j] * e2[i];
         (normal(1, 2) * t[0] + normal(2, 0) * t[1] + normal(0, 1) * t[2]).signum() as Sign
@@ -84,17 +80,37 @@ impl Orientation for Lattice {
 
     #[inline]
     fn sign_in_plane(&mut self, a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
-        let difference = |p: [f64; 2]| [0, 1].map(|axis| p[axis] as i64 - a[axis] as i64);
+        let difference = |p: [f64; 2]| [whole(p[0] - a[0]), whole(p[1] - a[1])];
         let (e, t) = (difference(b), difference(c));
+        (e[0] * t[1] - e[1] * t[0]).signum() as Sign
+    }
+}
+
+/// An integer below 2^40, which a difference of two below 2^39 is, exactly.
+#[inline]
+fn whole(x: f64) -> i128 {
+    i128::from(x as i64)
+}
+
+/// Signs of points whose coordinates are integers below 2^61.
+pub(super) struct Wide;
+
+impl Orientation for Wide {
+    fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
+        let [e1, e2, t] = [b, c, d].map(|p| difference(p, a));
+        let normal = |i: usize, j: usize| product(e1[i], e2[j]) - product(e1[j], e2[i]);
+        sign_of_sum([normal(1, 2), normal(2, 0), normal(0, 1)], t)
+    }
+
+    fn sign_in_plane(&mut self, a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
+        let [e, t] = [b, c].map(|p| difference(&p, &a));
         (product(e[0], t[1]) - product(e[1], t[0])).signum() as Sign
     }
 }
 
-fn wide_sign(a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
-    let difference = |p: &Point| [0, 1, 2].map(|axis| p[axis] as i64 - a[axis] as i64);
-    let (e1, e2, t) = (difference(b), difference(c), difference(d));
-    let normal = |i: usize, j: usize| product(e1[i], e2[j]) - product(e1[j], e2[i]);
-    sign_of_sum([normal(1, 2), normal(2, 0), normal(0, 1)], t)
+/// Differences of integers below 2^61: as doubles they might be rounded.
+fn difference<const N: usize>(p: &[f64; N], a: &[f64; N]) -> [i64; N] {
+    std::array::from_fn(|axis| p[axis] as i64 - a[axis] as i64)
 }
 
 #[inline]
@@ -124,15 +140,22 @@ fn sign_of_sum(normal: [i128; 3], t: [i64; 3]) -> Sign {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Precision;
     use pliant_oracle::{Class, Random, subnormals_flushed};
 
     /// Checks both signs of some corners of a pair, if it is on a lattice.
     fn check(a: &Triangle, b: &Triangle) -> bool {
-        let Some(([p, q], mut lattice)) = on_lattice(Precision::Double, a, b) else {
-            return false;
-        };
+        on_lattice!(Precision::Double, a, b, |p, q, lattice| signs(
+            [a, b],
+            [&p, &q],
+            lattice
+        ))
+        .is_some()
+    }
+
+    fn signs([a, b]: [&Triangle; 2], [p, q]: [&Triangle; 2], lattice: &mut impl Orientation) {
         let corners = |a: &Triangle, b: &Triangle| [a[0], a[1], a[2], b[0], b[1], b[2]];
-        let (exact, scaled) = (corners(a, b), corners(&p, &q));
+        let (exact, scaled) = (corners(a, b), corners(p, q));
         for i in [[0, 1, 2, 3], [3, 4, 5, 1], [0, 1, 3, 4], [2, 0, 5, 3]] {
             let [a, b, c, d] = i.map(|i| exact[i]);
             let expected = pliant_oracle::orientation(&a, &b, &c, &d);
@@ -153,7 +176,6 @@ mod tests {
                 );
             }
         }
-        true
     }
 
     #[test]
@@ -193,47 +215,44 @@ mod tests {
         }
     }
 
+    fn is_on(precision: Precision, a: &Triangle, b: &Triangle) -> bool {
+        on_lattice!(precision, a, b, |_p, _q, _signs| ()).is_some()
+    }
+
     #[test]
     fn what_is_on_no_lattice_is_said_so() {
         let flat = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
-        let step = 2f64.powi(-60);
-        let with = |x: f64| {
-            on_lattice(
+        for (precision, bits, near_one, not) in [
+            (
+                Precision::Single,
+                38,
+                1.0 - 2f64.powi(-38),
+                [1.0 - 2f64.powi(-39), 0.1],
+            ),
+            (
                 Precision::Double,
-                &flat,
-                &[[x, 0.0, 0.0], [0.0; 3], [1.0; 3]],
-            )
-            .is_some()
-        };
-        assert!(
-            with(step) && with(-step) && with(0.0) && with(-0.0) && with(0.25 + 2f64.powi(-54))
-        );
-        for x in [
-            step / 2.0,
-            1.5 * step,
-            -5e-324,
-            5e-324,
-            1e-310,
-            f64::MIN_POSITIVE,
-            0.0001,
+                60,
+                1.0 - 2f64.powi(-53),
+                [0.0001, 0.00001],
+            ),
         ] {
-            assert!(!with(x), "{x}");
+            let step = 2f64.powi(-bits);
+            let on = |a: &Triangle, b: &Triangle| is_on(precision, a, b);
+            let with = move |x: f64| is_on(precision, &flat, &[[x, 0.0, 0.0], [0.0; 3], [1.0; 3]]);
+            assert!(with(step) && with(-step) && with(0.0) && with(-0.0) && with(near_one));
+            let smallest = [step / 2.0, 1.5 * step, -5e-324, 5e-324, 1e-310];
+            for x in smallest.into_iter().chain(not).chain([f64::MIN_POSITIVE]) {
+                assert!(!with(x), "{x}");
+            }
+            // The largest may be negative; zero alone, and the smallest numbers, have none.
+            assert!(on(&flat, &[[-1024.0, step * 1024.0, 0.0]; 3]));
+            assert!(!on(&flat, &[[-1024.0, step * 512.0, 0.0]; 3]));
+            assert!(!on(&[[0.0; 3]; 3], &[[0.0; 3]; 3]));
+            assert!(!on(&[[5e-324; 3]; 3], &[[0.0; 3]; 3]));
+            // Nor does a thread that flushes subnormal numbers take them for zero.
+            let tiny = [5e-324, -1e-310, 2f64.powi(-1030)];
+            let in_flushed = subnormals_flushed(move || tiny.map(with));
+            assert!(in_flushed.is_none_or(|found| found == [false; 3]));
         }
-        // The largest may be negative; zero alone, and the smallest numbers, have none.
-        assert!(
-            on_lattice(
-                Precision::Double,
-                &flat,
-                &[[-1024.0, step * 1024.0, 0.0]; 3]
-            )
-            .is_some()
-        );
-        assert!(on_lattice(Precision::Double, &flat, &[[-1024.0, step * 512.0, 0.0]; 3]).is_none());
-        assert!(on_lattice(Precision::Double, &[[0.0; 3]; 3], &[[0.0; 3]; 3]).is_none());
-        assert!(on_lattice(Precision::Double, &[[5e-324; 3]; 3], &[[0.0; 3]; 3]).is_none());
-        // Nor does a thread that flushes subnormal numbers take them for zero.
-        let tiny = [5e-324, -1e-310, 2f64.powi(-1030)];
-        let in_flushed = subnormals_flushed(move || tiny.map(with));
-        assert!(in_flushed.is_none_or(|found| found == [false; 3]));
     }
 }

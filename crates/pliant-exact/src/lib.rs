@@ -100,9 +100,11 @@ pub fn side_of_plane([a, b, c]: [[f64; 3]; 3], point: [f64; 3]) -> Ordering {
 /// ```
 #[inline]
 pub fn intersect(precision: Precision, a: &Triangle, b: &Triangle, exact: &mut u64) -> bool {
-    if let Some(([a, b], mut lattice)) = on_lattice(precision, a, b) {
+    if let Some(intersect) = on_lattice!(precision, a, b, |a, b, signs| {
+        triangles::triangles_intersect(&a, &b, signs)
+    }) {
         *exact += 1;
-        return triangles::triangles_intersect(&a, &b, &mut lattice);
+        return intersect;
     }
     let mut filtered = Filtered::new(precision);
     let intersect = triangles::triangles_intersect(a, b, &mut filtered);
@@ -122,8 +124,8 @@ pub fn intersect(precision: Precision, a: &Triangle, b: &Triangle, exact: &mut u
 /// assert_eq!([0.0, -1e-300].map(kind), [ContactKind::Touching, ContactKind::Crossing]);
 /// ```
 pub fn contact_kind(precision: Precision, a: &Triangle, b: &Triangle) -> ContactKind {
-    match on_lattice(precision, a, b) {
-        Some(([a, b], mut lattice)) => contact_kind::contact_kind(&a, &b, &mut lattice),
-        None => contact_kind::contact_kind(a, b, &mut Filtered::new(precision)),
-    }
+    on_lattice!(precision, a, b, |a, b, signs| {
+        contact_kind::contact_kind(&a, &b, signs)
+    })
+    .unwrap_or_else(|| contact_kind::contact_kind(a, b, &mut Filtered::new(precision)))
 }

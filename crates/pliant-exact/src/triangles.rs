@@ -230,10 +230,10 @@ mod tests {
                     expected,
                     "{p:?} {q:?}"
                 );
-                if let Some(([p, q], mut lattice)) = on_lattice(crate::Precision::Double, &p, &q) {
-                    let found = triangles_intersect(&p, &q, &mut lattice);
-                    assert_eq!(found, expected, "{p:?} {q:?}");
-                }
+                let found = on_lattice!(crate::Precision::Double, &p, &q, |p, q, signs| {
+                    triangles_intersect(&p, &q, signs)
+                });
+                assert_eq!(found.unwrap_or(expected), expected, "{p:?} {q:?}");
             }
         }
         expected

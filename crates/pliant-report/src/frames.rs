@@ -141,14 +141,9 @@ impl LineShown {
     pub(crate) fn new(triangles: [u32; 2], ends: [End; 2]) -> Self {
         let on = |end: End| {
             let side = usize::from(end.on[0] == Feature::Inside);
-            let number = match end.on[side] {
-                Feature::Corner(corner) => corner,
-                Feature::Edge(edge) => 3 + edge,
-                // An end that is inside both: there is none.
-                Feature::Inside => 0,
-            };
             let part = end.parameter[side].unwrap_or_default();
-            ((6 * side + number) as u8, (part * 65_535.0).round() as u16)
+            let on = 6 * side as u8 + u8::from(end.on[side]);
+            (on, (part * 65_535.0).round() as u16)
         };
         let [(on_p, part_p), (on_q, part_q)] = ends.map(on);
         Self {

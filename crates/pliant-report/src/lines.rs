@@ -2,14 +2,15 @@
 
 use pliant::{End, Pair, Scalar, Segments, World};
 
-/// Lines of pairs, each with its pair: body, triangle, body, triangle. None if a pair is not there.
+/// Lines of pairs, each with its pair: body, triangle, body, triangle. If one of the pairs is not
+/// there, there are no lines.
 pub(crate) fn of_pairs<S: Scalar>(
     world: &World<S>,
     rows: &[[u32; 4]],
-) -> impl Iterator<Item = ([u32; 4], [End; 2])> {
+) -> Vec<([u32; 4], [End; 2])> {
     let pairs: Vec<Pair> = rows.iter().map(|&row| row.into()).collect();
     let mut segments = Segments::new();
-    // If it is refused, there are no segments.
+    // If it is refused, it has none.
     let _ = segments.update(world, &pairs);
     let sides = segments.iter().flat_map(|segment| {
         let ends = segment.ends.to_vec();
@@ -21,5 +22,5 @@ pub(crate) fn of_pairs<S: Scalar>(
         let row = segment.pair.into();
         (0..count).map(move |i| (row, [ends[i], ends[(i + 1) % ends.len()]]))
     });
-    sides.collect::<Vec<_>>().into_iter()
+    sides.collect()
 }

@@ -414,7 +414,8 @@ impl Recorder {
         let gaps = gaps.collect();
         let mut lines: Vec<LineShown> = Vec::new();
         if pairs.len() <= MOST_LINES {
-            lines.extend(lines::of_pairs(world, pairs).filter_map(|(pair, ends)| {
+            let met = lines::of_pairs(world, pairs).into_iter();
+            lines.extend(met.filter_map(|(pair, ends)| {
                 let triangles = global_pair(&pair)?;
                 Some(LineShown::new(triangles, ends))
             }));

@@ -18,7 +18,6 @@ use pliant::{Curves, Pair};
 use pliant_check::{Check, Found, with_world};
 use pliant_io::{Precision, shown};
 use std::io::{self, Write};
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Output files of one check.
@@ -47,35 +46,27 @@ impl Kind {
     }
 }
 
-/// Intersecting triangles of one frame, as they are written.
+/// Intersecting triangles and curves of one frame, as they are written.
 #[derive(Default)]
 struct Mesh {
-    /// Source and vertex of each point, sorted.
+    /// Source and vertex of each point of triangles, sorted.
     points: Vec<(usize, u32)>,
-    bodies: Vec<u32>,
-    triangles: Vec<u32>,
-    partners: Vec<u32>,
-    /// Indices of points, three a triangle.
-    corners: Vec<i64>,
-    curves: Polylines,
+    /// Points of curves, behind them.
+    of_curves: Vec<[f64; 3]>,
+    triangles: Vec<Cell>,
+    /// Curves, or the sides of curves.
+    lines: Vec<Cell>,
 }
 
-/// Curves in which the triangles meet, as polylines.
-#[derive(Default)]
-struct Polylines {
-    points: Vec<[f64; 3]>,
-    /// Indices of these points, one curve after the other. A closed one ends where it begins.
-    along: Vec<i64>,
-    /// Number of indices of all curves up to each.
-    stops: Vec<usize>,
-    lengths: Vec<f64>,
-}
-
-/// A line along a curve.
-struct Line {
+/// Cell of a file.
+struct Cell {
+    body: u32,
+    triangle: u32,
+    partners: u32,
     curve: u32,
-    /// Its points, in `Polylines::along`.
-    along: Range<usize>,
+    length: f64,
+    /// Indices of points.
+    corners: Vec<i64>,
 }
 
 /// Number of a body, a triangle, a vertex or a curve where there is none.
@@ -147,7 +138,7 @@ impl Hits {
             let name = name.to_string_lossy().into_owned();
             self.written.push((found.frame, name));
         }
-        let mesh = Mesh::of(check, found);
+        let mesh = Mesh::of(check, found, self.kind);
         output::write(&path, MARK, self.over, |out| {
             mesh.write(out, check, self.kind, found.frame)
         })
@@ -170,7 +161,7 @@ impl Hits {
 }
 
 impl Mesh {
-    fn of(check: &Check, found: &Found) -> Self {
+    fn of(check: &Check, found: &Found, kind: Kind) -> Self {
         let mut mesh = Self::default();
         let pairs = found.all_pairs();
         let ends = pairs
@@ -189,13 +180,15 @@ impl Mesh {
         mesh.points.dedup();
         for same in hits {
             let [body, triangle] = same[0];
-            mesh.bodies.push(body);
-            mesh.triangles.push(triangle);
-            mesh.partners.push(same.len() as u32);
-            for corner in corners_of(&same[0]) {
-                mesh.corners
-                    .push(mesh.points.partition_point(|&point| point < corner) as i64);
-            }
+            let place = |corner| mesh.points.partition_point(|&point| point < corner) as i64;
+            mesh.triangles.push(Cell {
+                body,
+                triangle,
+                partners: same.len() as u32,
+                curve: NONE,
+                length: 0.0,
+                corners: corners_of(&same[0]).map(place).to_vec(),
+            });
         }
         let pairs: Vec<Pair> = pairs
             .iter()
@@ -204,9 +197,34 @@ impl Mesh {
         let mut curves = Curves::new();
         // All pairs are of this world, so nothing can be refused.
         if with_world!(check.world(), world => curves.update(world, &pairs)).is_ok() {
-            mesh.curves = Polylines::of(&curves);
+            mesh.take(&curves, kind);
         }
         mesh
+    }
+
+    /// Takes curves, as polylines or as their sides. A closed one ends where it begins.
+    fn take(&mut self, curves: &Curves, kind: Kind) {
+        for (number, curve) in (0..).zip(curves.iter()) {
+            let first = (self.points.len() + self.of_curves.len()) as i64;
+            self.of_curves.extend(curve.points());
+            let end = (self.points.len() + self.of_curves.len()) as i64;
+            let along: Vec<i64> = (first..end)
+                .chain(curve.is_closed().then_some(first))
+                .collect();
+            let at_once = match kind {
+                Kind::PolyData => along.len(),
+                Kind::UnstructuredGrid => 2,
+            };
+            self.lines
+                .extend(along.windows(at_once).map(|corners| Cell {
+                    body: NONE,
+                    triangle: NONE,
+                    partners: 0,
+                    curve: number,
+                    length: curve.length(),
+                    corners: corners.to_vec(),
+                }));
+        }
     }
 
     fn write(
@@ -216,55 +234,49 @@ impl Mesh {
         kind: Kind,
         frame: usize,
     ) -> io::Result<()> {
-        let curves = &self.curves;
-        let (points, cells) = (self.points.len(), self.bodies.len());
-        let lines = curves.cells(kind);
-        let (more_points, count) = (curves.points.len(), lines.len());
+        let (triangles, lines) = (self.triangles.len(), self.lines.len());
+        let points = self.points.len() + self.of_curves.len();
         begin(out, kind.name())?;
         write!(
             out,
             r#"<FieldData><DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" "#
         )?;
         writeln!(out, r#"format="ascii">{frame}</DataArray></FieldData>"#)?;
-        let all_points = points + more_points;
-        let of_cells = match kind {
-            Kind::PolyData => format!(r#"NumberOfLines="{count}" NumberOfPolys="{cells}""#),
-            Kind::UnstructuredGrid => format!(r#"NumberOfCells="{}""#, cells + count),
+        let (count, cells) = match kind {
+            Kind::PolyData => (
+                format!(r#"NumberOfLines="{lines}" NumberOfPolys="{triangles}""#),
+                [&self.lines, &self.triangles],
+            ),
+            Kind::UnstructuredGrid => (
+                format!(r#"NumberOfCells="{}""#, triangles + lines),
+                [&self.triangles, &self.lines],
+            ),
         };
-        writeln!(out, r#"<Piece NumberOfPoints="{all_points}" {of_cells}>"#)?;
+        writeln!(out, r#"<Piece NumberOfPoints="{points}" {count}>"#)?;
 
         writeln!(out, "<PointData>")?;
         let vertices = self.points.iter().map(|&(_, vertex)| vertex);
-        let vertices = vertices.chain(std::iter::repeat_n(NONE, more_points));
+        let vertices = vertices.chain(self.of_curves.iter().map(|_| NONE));
         array(out, "UInt32", "vertex", vertices.map(u32::to_le_bytes))?;
         writeln!(out, "</PointData>")?;
 
-        // In the order of cells: curves are first in the one kind of file, and last in the other.
-        let (before, behind) = match kind {
-            Kind::PolyData => (&lines[..], &[][..]),
-            Kind::UnstructuredGrid => (&[][..], &lines[..]),
-        };
+        let all = || cells.into_iter().flatten();
         writeln!(out, r#"<CellData Scalars="partners">"#)?;
-        for (name, numbers, of_curves) in [
-            ("body", &self.bodies, NONE),
-            ("triangle", &self.triangles, NONE),
-            ("partners", &self.partners, 0),
-        ] {
-            let numbers = std::iter::repeat_n(of_curves, before.len())
-                .chain(numbers.iter().copied())
-                .chain(std::iter::repeat_n(of_curves, behind.len()));
-            array(out, "UInt32", name, numbers.map(u32::to_le_bytes))?;
+        let numbers: [(&str, fn(&Cell) -> u32); 4] = [
+            ("body", |cell| cell.body),
+            ("triangle", |cell| cell.triangle),
+            ("partners", |cell| cell.partners),
+            ("curve", |cell| cell.curve),
+        ];
+        for (name, number) in numbers {
+            array(
+                out,
+                "UInt32",
+                name,
+                all().map(|cell| number(cell).to_le_bytes()),
+            )?;
         }
-        let of_triangles = std::iter::repeat_n((NONE, 0.0), cells);
-        let of_lines = |lines: &[Line]| -> Vec<(u32, f64)> {
-            let of_line = |line: &Line| (line.curve, curves.lengths[line.curve as usize]);
-            lines.iter().map(of_line).collect()
-        };
-        let all = of_lines(before).into_iter().chain(of_triangles);
-        let all = all.chain(of_lines(behind));
-        let numbers = all.clone().map(|(curve, _)| curve.to_le_bytes());
-        array(out, "UInt32", "curve", numbers)?;
-        let lengths = all.map(|(_, length)| length.to_le_bytes());
+        let lengths = all().map(|cell| cell.length.to_le_bytes());
         array(out, "Float64", "length", lengths)?;
         writeln!(out, "</CellData>")?;
 
@@ -274,7 +286,7 @@ impl Mesh {
             .points
             .iter()
             .flat_map(|&(source, vertex)| sources[source].positions().get(vertex))
-            .chain(curves.points.as_flattened().iter().copied());
+            .chain(self.of_curves.as_flattened().iter().copied());
         if sources.iter().all(|it| it.precision() == Precision::F32) {
             let coordinates = coordinates.map(|x| (x as f32).to_le_bytes());
             array(out, "Float32", "Points", coordinates)?;
@@ -283,31 +295,17 @@ impl Mesh {
         }
         writeln!(out, "</Points>")?;
 
-        let along = lines
-            .iter()
-            .flat_map(|line| &curves.along[line.along.clone()]);
-        let along = along.map(|point| point + points as i64);
-        let mut stop = 0;
-        let mut behind = |line: &Line| {
-            stop += line.along.len() as i64;
-            stop
-        };
-        let stops: Vec<i64> = lines.iter().map(&mut behind).collect();
-        let corners = self.corners.iter().copied();
-        let ends = (1..=cells).map(|cell| 3 * cell as i64);
         match kind {
             Kind::PolyData => {
-                list(out, "Lines", along, stops.into_iter())?;
+                list(out, "Lines", self.lines.iter())?;
                 writeln!(out, "</Lines>")?;
-                list(out, "Polys", corners, ends)?;
+                list(out, "Polys", self.triangles.iter())?;
                 writeln!(out, "</Polys>")?;
             }
             Kind::UnstructuredGrid => {
-                let behind = stops.iter().map(|stop| stop + 3 * cells as i64);
-                list(out, "Cells", corners.chain(along), ends.chain(behind))?;
-                let types = std::iter::repeat_n(TRIANGLE, cells);
-                let types = types.chain(std::iter::repeat_n(LINE, count));
-                array(out, "UInt8", "types", types.map(|kind| [kind]))?;
+                list(out, "Cells", all())?;
+                let kind = |cell: &Cell| if cell.curve == NONE { TRIANGLE } else { LINE };
+                array(out, "UInt8", "types", all().map(|cell| [kind(cell)]))?;
                 writeln!(out, "</Cells>")?;
             }
         }
@@ -316,53 +314,25 @@ impl Mesh {
     }
 }
 
-impl Polylines {
-    fn of(curves: &Curves) -> Self {
-        let mut all = Self::default();
-        for curve in curves.iter() {
-            let first = all.points.len() as i64;
-            all.points.extend(curve.points());
-            all.along.extend(first..all.points.len() as i64);
-            if curve.is_closed() {
-                all.along.push(first);
-            }
-            all.stops.push(all.along.len());
-            all.lengths.push(curve.length());
-        }
-        all
-    }
-
-    /// The lines of a file: polylines, or the sides of them.
-    fn cells(&self, kind: Kind) -> Vec<Line> {
-        let mut lines = Vec::new();
-        let mut start = 0;
-        for (curve, &stop) in (0..).zip(&self.stops) {
-            match kind {
-                Kind::PolyData => lines.push(Line {
-                    curve,
-                    along: start..stop,
-                }),
-                Kind::UnstructuredGrid => lines.extend((start + 1..stop).map(|next| Line {
-                    curve,
-                    along: next - 1..next + 1,
-                })),
-            }
-            start = stop;
-        }
-        lines
-    }
-}
-
 /// Writes cells: the points of each, and where it ends in them.
-fn list(
+fn list<'c>(
     out: &mut dyn Write,
     name: &str,
-    points: impl Iterator<Item = i64>,
-    ends: impl Iterator<Item = i64>,
+    cells: impl Iterator<Item = &'c Cell> + Clone,
 ) -> io::Result<()> {
     writeln!(out, "<{name}>")?;
-    array(out, "Int64", "connectivity", points.map(i64::to_le_bytes))?;
-    array(out, "Int64", "offsets", ends.map(i64::to_le_bytes))
+    let points = cells.clone().flat_map(|cell| &cell.corners);
+    array(
+        out,
+        "Int64",
+        "connectivity",
+        points.map(|point| point.to_le_bytes()),
+    )?;
+    let ends = cells.scan(0, |end, cell| {
+        *end += cell.corners.len() as i64;
+        Some(end.to_le_bytes())
+    });
+    array(out, "Int64", "offsets", ends)
 }
 
 fn begin(out: &mut dyn Write, kind: &str) -> io::Result<()> {

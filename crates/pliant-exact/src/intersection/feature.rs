@@ -14,6 +14,17 @@ pub enum Feature {
     Inside,
 }
 
+/// As a number: 0 to 2 for a corner, 3 to 5 for an edge, 6 for the inside.
+impl From<Feature> for u8 {
+    fn from(on: Feature) -> Self {
+        match on {
+            Feature::Corner(corner) => corner as Self,
+            Feature::Edge(edge) => 3 + edge as Self,
+            Feature::Inside => 6,
+        }
+    }
+}
+
 impl Feature {
     /// Whether it is on an edge, its two corners included.
     pub fn is_on(self, edge: usize) -> bool {

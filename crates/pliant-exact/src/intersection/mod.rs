@@ -133,11 +133,7 @@ mod tests {
 
     /// A feature as the oracle numbers it.
     fn number(on: Feature) -> usize {
-        match on {
-            Feature::Corner(i) => i,
-            Feature::Edge(i) => 3 + i,
-            Feature::Inside => 6,
-        }
+        u8::from(on).into()
     }
 
     fn off(p: Point, q: Point) -> f64 {

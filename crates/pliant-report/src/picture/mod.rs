@@ -285,6 +285,7 @@ fn lines_of<S: Scalar>(
     let seen = |point| [dot(point, right), dot(point, up), dot(point, eye)];
     let lines = crate::lines::of_pairs(world, pairs);
     lines
+        .into_iter()
         .map(|(_, ends)| ends.map(|end| seen(end.point)))
         .collect()
 }

@@ -43,7 +43,7 @@ impl Curve<'_> {
             let positions = world.positions(chords.body)?;
             let is_there =
                 |chord: &Chord| triangles.get(chord.triangle as usize) == Some(&chord.vertices);
-            if !chords.all.iter().all(is_there) || !chords.are_all(triangles) {
+            if !chords.all.iter().all(is_there) {
                 return Ok(None);
             }
             Ok(chords.enclosed(triangles, &positions))
@@ -137,20 +137,31 @@ impl Chords {
         for vertex in self.jumps.keys().flatten() {
             is_crossed[*vertex as usize] = true;
         }
-        let live = || triangles.iter().filter(|corners| corners[0] != u32::MAX);
-        for corners in live() {
+        let passed: HashSet<u32> = self.all.iter().map(|chord| chord.triangle).collect();
+        let live = || {
+            (0..)
+                .zip(triangles)
+                .filter(|(_, corners)| corners[0] != u32::MAX)
+        };
+        for (triangle, corners) in live() {
             for [p, q] in (0..3).map(|i| edge(corners, i)) {
                 let mut jump = 0;
-                if is_crossed[p as usize] && is_crossed[q as usize] {
-                    let of_edge = self.jumps.get(&[p.min(q), p.max(q)]).copied();
-                    jump = of_edge.unwrap_or(0) * if p < q { 1 } else { -1 };
+                if is_crossed[p as usize]
+                    && is_crossed[q as usize]
+                    && let Some(of_edge) = self.jumps.get(&[p.min(q), p.max(q)])
+                {
+                    // A triangle at the edge, and not on the way of the curve: it stands twice.
+                    if !passed.contains(&triangle) {
+                        return None;
+                    }
+                    jump = of_edge * if p < q { 1 } else { -1 };
                 }
                 numbers.join([p, q], jump)?;
             }
         }
         let (sheet, _) = numbers.of_vertex(self.all.first()?.vertices[0]);
         let (mut low, mut high, mut enclosed, mut whole) = (i64::MAX, i64::MIN, 0.0, 0.0);
-        for corners in live() {
+        for (_, corners) in live() {
             let (of, number) = numbers.of_vertex(corners[0]);
             if of == sheet {
                 let all = corners.map(|vertex| numbers.of_vertex(vertex).1);
@@ -178,20 +189,6 @@ impl Chords {
         } else {
             second
         })
-    }
-
-    /// Whether triangles at the edges that the curve crosses are all on its way. One that is not
-    /// stands twice.
-    fn are_all(&self, triangles: &[[u32; 3]]) -> bool {
-        let passed: HashSet<u32> = self.all.iter().map(|chord| chord.triangle).collect();
-        let is_crossed = |[p, q]: [u32; 2]| self.jumps.contains_key(&[p.min(q), p.max(q)]);
-        let vertices: HashSet<u32> = self.jumps.keys().flatten().copied().collect();
-        let is_on_the_way = |(triangle, corners): (u32, &[u32; 3])| {
-            passed.contains(&triangle)
-                || !corners.iter().any(|vertex| vertices.contains(vertex))
-                || !(0..3).any(|i| is_crossed(edge(corners, i)))
-        };
-        (0..).zip(triangles).all(is_on_the_way)
     }
 }
 

@@ -30,8 +30,8 @@ use std::ops::Range;
 /// Triangles of one plane are in no curve, whether they overlap or touch: see
 /// [`Segment::is_flat`]. Around an overlap a curve goes where other triangles meet its border.
 /// Where surfaces touch in one point and no segment ends there, there is no curve either:
-/// [`points`](Self::points). Triangles without area may end a curve, as several parts of the mesh
-/// hold the same place.
+/// [`touching`](Self::touching). Triangles without area may end a curve, as several parts of the
+/// mesh hold the same place.
 ///
 /// ```
 /// # use pliant::{Curves, Selection, World};
@@ -162,8 +162,8 @@ impl Curves {
 
     /// Places in the list of pairs that meet in one point, where no curve and no corner of an
     /// overlap is; one for each point.
-    pub fn points(&self) -> &[usize] {
-        &self.places.points
+    pub fn touching(&self) -> &[usize] {
+        &self.places.touching
     }
 
     /// Follows a curve from one of its segments, whose direction and sides it has.
@@ -289,7 +289,9 @@ impl<'c> Curve<'c> {
         self.steps.iter().map(move |step| ends(step)[0]).chain(last)
     }
 
-    /// The triangle on either side at a step: its body, its number, its vertices.
+    /// The triangle on either side at a step of this curve: its body, its number, its vertices.
+    ///
+    /// Of a step that no pair has, all are [`u32::MAX`].
     pub fn sides(&self, step: &Step) -> [(BodyId, u32, [u32; 3]); 2] {
         let Some(Segment { pair, vertices, .. }) = self.segments.get(step.segment) else {
             return [(BodyId(u32::MAX), u32::MAX, [u32::MAX; 3]); 2];
@@ -327,7 +329,7 @@ struct Places {
     /// The places of both ends of each segment, `NONE` for what is no segment.
     of_ends: Vec<[Name; 2]>,
     all: Vec<Place>,
-    points: Vec<usize>,
+    touching: Vec<usize>,
 }
 
 /// Number of a place, and whether the first triangle's part of the mesh is the higher of its two.
@@ -358,7 +360,7 @@ impl Places {
         self.of_ends.clear();
         self.of_ends.resize(segments.len(), [NONE; 2]);
         self.all.clear();
-        self.points.clear();
+        self.touching.clear();
         for (number, segment) in segments.iter().enumerate() {
             match segment.ends {
                 [p, q] if !segment.is_flat => {
@@ -378,14 +380,12 @@ impl Places {
             }
         }
         // What is left are points, where no segment and no polygon has been.
-        for number in 0..segments.len() {
-            if let [point] = segments.ends_of(number)
-                && let Some(segment) = segments.get(number)
-            {
+        for (number, segment) in segments.iter().enumerate() {
+            if let [point] = segment.ends {
                 let before = self.all.len();
                 self.name(&segment, point);
                 if self.all.len() > before {
-                    self.points.push(number);
+                    self.touching.push(number);
                 }
             }
         }

@@ -5,14 +5,14 @@ use crate::ids::BodyId;
 use crate::queries::Pair;
 use crate::world::{Scalar, World};
 use pliant_exact::{End, Point, Precision, intersection};
+use std::ops::Range;
 
 /// Where pairs of triangles meet: for each pair of a list a point, a segment or a polygon.
 ///
 /// The pairs may come from any question. Two triangles that share an edge, and meet nowhere else,
-/// meet in that. Each end of a segment is on a corner, on an edge or inside
-/// of either triangle, and which is exact. Its coordinates are rounded: they are off by at most
-/// 2^-38 of the edge on which it lies, and by four roundings. [`Curves`](crate::Curves) links
-/// segments.
+/// meet in that. Each end of a segment is on a corner, on an edge or inside of either triangle, and
+/// which is exact. Its coordinates are rounded: they are off by at most 2^-38 of the edge on which
+/// it lies, and by four roundings. [`Curves`](crate::Curves) links segments.
 ///
 /// ```
 /// # use pliant::{Feature, Segments, Selection, World};
@@ -30,14 +30,20 @@ use pliant_exact::{End, Point, Precision, intersection};
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Segments {
-    pairs: Vec<Pair>,
-    /// Vertices of both triangles of each pair.
-    vertices: Vec<[[u32; 3]; 2]>,
-    normals: Vec<[Point; 2]>,
-    are_flat: Vec<bool>,
-    /// Number of ends of all pairs up to each.
-    stops: Vec<usize>,
+    rows: Vec<Row>,
+    /// Ends of all pairs, one pair after the other.
     ends: Vec<End>,
+}
+
+/// A [`Segment`], with the places of its ends.
+#[derive(Clone, Debug)]
+struct Row {
+    pair: Pair,
+    vertices: [[u32; 3]; 2],
+    normals: [Point; 2],
+    is_flat: bool,
+    /// Places of its ends.
+    ends: Range<usize>,
 }
 
 /// Where a pair of triangles meets.
@@ -79,37 +85,25 @@ impl Segments {
         world: &World<S>,
         pairs: &[P],
     ) -> Result<(), Error> {
-        self.clear();
-        self.pairs.extend(pairs.iter().map(|&pair| pair.into()));
-        let done = self.meet(world);
+        self.rows.clear();
+        self.ends.clear();
+        let done = self.meet(world, pairs);
         if done.is_err() {
-            self.clear();
+            self.rows.clear();
+            self.ends.clear();
         }
         done
     }
 
-    fn clear(&mut self) {
-        let Self {
-            pairs,
-            vertices,
-            normals,
-            are_flat,
-            stops,
-            ends,
-        } = self;
-        pairs.clear();
-        vertices.clear();
-        normals.clear();
-        are_flat.clear();
-        stops.clear();
-        ends.clear();
-    }
-
-    fn meet<S: Scalar>(&mut self, world: &World<S>) -> Result<(), Error> {
-        let named = self.pairs.iter();
-        let named = named.flat_map(|pair| [pair.body_a, pair.body_b]);
+    fn meet<S: Scalar, P: Copy + Into<Pair>>(
+        &mut self,
+        world: &World<S>,
+        pairs: &[P],
+    ) -> Result<(), Error> {
+        let pairs = pairs.iter().map(|&pair| pair.into());
+        let named = pairs.clone().flat_map(|pair| [pair.body_a, pair.body_b]);
         let bodies = Bodies::of(world, named)?;
-        for pair in &self.pairs {
+        for pair in pairs {
             let of = [
                 (pair.body_a, pair.triangle_a),
                 (pair.body_b, pair.triangle_b),
@@ -123,48 +117,53 @@ impl Segments {
             }
             let [a, b] = &corners;
             let both = intersection(Precision::Double, a, b);
-            self.vertices.push(vertices);
-            self.normals.push([normal(a), normal(b)]);
-            self.are_flat.push(both.is_flat());
+            let start = self.ends.len();
             self.ends.extend(both.ends());
-            self.stops.push(self.ends.len());
+            self.rows.push(Row {
+                pair,
+                vertices,
+                normals: [normal(a), normal(b)],
+                is_flat: both.is_flat(),
+                ends: start..self.ends.len(),
+            });
         }
         Ok(())
     }
 
     /// Number of pairs.
     pub fn len(&self) -> usize {
-        self.pairs.len()
+        self.rows.len()
     }
 
     /// Whether there is no pair.
     pub fn is_empty(&self) -> bool {
-        self.pairs.is_empty()
+        self.rows.is_empty()
     }
 
     /// Where a pair meets, by its place in the list.
     pub fn get(&self, place: usize) -> Option<Segment<'_>> {
-        Some(Segment {
-            pair: *self.pairs.get(place)?,
-            ends: self.ends_of(place),
-            is_flat: self.are_flat[place],
-            normals: self.normals[place],
-            vertices: self.vertices[place],
-        })
+        self.rows.get(place).map(|row| self.segment(row))
+    }
+
+    /// Where all pairs meet, in the order of the list.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = Segment<'_>> {
+        self.rows.iter().map(|row| self.segment(row))
+    }
+
+    fn segment(&self, row: &Row) -> Segment<'_> {
+        Segment {
+            pair: row.pair,
+            ends: &self.ends[row.ends.clone()],
+            is_flat: row.is_flat,
+            normals: row.normals,
+            vertices: row.vertices,
+        }
     }
 
     /// The ends of a pair, by its place in the list; none behind the list.
     pub(super) fn ends_of(&self, place: usize) -> &[End] {
-        let start = place
-            .checked_sub(1)
-            .map_or(Some(&0), |before| self.stops.get(before));
-        let both = start.zip(self.stops.get(place));
-        both.map_or(&[], |(&start, &stop)| &self.ends[start..stop])
-    }
-
-    /// Where all pairs meet, in the order of the list.
-    pub fn iter(&self) -> impl Iterator<Item = Segment<'_>> {
-        (0..self.len()).filter_map(|place| self.get(place))
+        let row = self.rows.get(place);
+        row.map_or(&[], |row| &self.ends[row.ends.clone()])
     }
 
     /// Ends of all pairs, one pair after the other.

@@ -135,7 +135,7 @@ fn check_general(world: &mut World<f64>, of: Selection) -> [usize; 2] {
     let pairs = pairs(world, of);
     let curves = curves_of(world, &pairs);
     let segments = curves.segments();
-    assert!(curves.points().is_empty());
+    assert!(curves.touching().is_empty());
     let mut taken = Vec::new();
     let mut crossed = BTreeSet::new();
     let mut counts = [0; 2];
@@ -375,7 +375,7 @@ fn passages_that_are_degenerate_follow_the_rule() {
         let segments = curves.segments();
         let ends: Vec<_> = curves.iter().map(|it| (it.ends(), it.length())).collect();
         let polygons = segments.iter().filter(|it| it.ends.len() > 2).count();
-        (ends, curves.points().len(), polygons)
+        (ends, curves.touching().len(), polygons)
     };
     let unit = cube([0.0; 3], 1.0);
     let with = |lower, side| told(&[unit.clone(), cube(lower, side)]);

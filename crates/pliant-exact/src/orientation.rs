@@ -119,7 +119,7 @@ impl Filtered {
 const RELATIVE_ERROR: f64 = 9.0 * U;
 
 /// A plane through three points: its normal, and the sizes that rounding errors are parts of.
-struct Plane<'p> {
+pub(super) struct Plane<'p> {
     origin: &'p Point,
     normal: [f64; 3],
     size: [f64; 3],
@@ -127,7 +127,7 @@ struct Plane<'p> {
 
 impl<'p> Plane<'p> {
     #[inline]
-    fn of(origin: &'p Point, b: &Point, c: &Point) -> Self {
+    pub(super) fn of(origin: &'p Point, b: &Point, c: &Point) -> Self {
         let [e1, e2] = [b, c].map(|p| minus(p, origin));
         let (mut normal, mut size) = ([0.0; 3], [0.0; 3]);
         for i in 0..3 {
@@ -142,18 +142,26 @@ impl<'p> Plane<'p> {
             size,
         }
     }
+
+    /// The determinant of the plane and a point, rounded, and its size: see `RELATIVE_ERROR`.
+    #[inline]
+    pub(super) fn height(&self, point: &Point) -> (f64, f64) {
+        let t = minus(point, self.origin);
+        let (mut determinant, mut size) = (0.0, 0.0);
+        for i in 0..3 {
+            determinant += self.normal[i] * t[i];
+            size += self.size[i] * t[i].abs();
+        }
+        (determinant, size)
+    }
 }
 
 impl Filtered {
     /// The side of the plane on which a point lies, if the filter is certain of it.
     #[inline]
     fn certain_side(&self, plane: &Plane, point: &Point) -> Option<Sign> {
+        let (determinant, magnitude) = plane.height(point);
         let t = minus(point, plane.origin);
-        let (mut determinant, mut magnitude) = (0.0, 0.0);
-        for i in 0..3 {
-            determinant += plane.normal[i] * t[i];
-            magnitude += plane.size[i] * t[i].abs();
-        }
         let reach = t[0].abs() + t[1].abs() + t[2].abs() + 1.0;
         if determinant.abs() > RELATIVE_ERROR * magnitude + self.underflow * reach {
             return Some(sign_of(determinant));

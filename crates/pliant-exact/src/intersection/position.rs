@@ -5,6 +5,7 @@
 use super::feature::Feature;
 use crate::float::scaled;
 use crate::integer::{powers_of_all, quotient};
+use crate::orientation::Plane;
 use crate::point::{Point, Triangle};
 use crate::ring::Ring;
 use crate::triangles::edge;
@@ -105,20 +106,9 @@ fn upright([r, s]: [Point; 2], axis: usize) -> Triangle {
 /// Part of the way from the first end to the second at which an edge meets a plane; off by less
 /// than 2^-38. None if the plane is none.
 fn on_plane([p, q]: [Point; 2], [a, b, c]: &Triangle) -> Option<f64> {
-    // As in the filter of orientations: each is off by at most 9 u of its size.
-    let [e, f] = [b, c].map(|corner| minus(corner, a));
-    let height = |point: &Point| {
-        let t = minus(point, a);
-        let (mut value, mut size) = (0.0, 0.0);
-        for i in 0..3 {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            let (left, right) = (e[j] * f[k], e[k] * f[j]);
-            value += (left - right) * t[i];
-            size += (left.abs() + right.abs()) * t[i].abs();
-        }
-        (value, size)
-    };
-    let ((of_p, size_p), (of_q, size_q)) = (height(&p), height(&q));
+    // Each is off by at most 9 u of its size.
+    let plane = Plane::of(a, b, c);
+    let [(of_p, size_p), (of_q, size_q)] = [p, q].map(|end| plane.height(&end));
     let length = of_p.abs() + of_q.abs();
     let is_certain = size_p + size_q < MOST_TERMS * length && length > LEAST;
     if is_certain && of_p * of_q <= 0.0 {

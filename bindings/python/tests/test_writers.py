@@ -1,7 +1,8 @@
 """Arrays that somebody else writes while a call reads them: what is checked is what is kept.
 
 Each number of an array is looked at once: it is copied to where nobody else can write, and only the copy is checked and used.
-Which of the numbers that were there meanwhile is copied, nobody can say; but never one that was not checked.
+Which of the numbers that were there meanwhile is copied, or of which bytes of two of them a mixture, nobody can say; but never one that was
+not checked.
 """
 
 from __future__ import annotations
@@ -55,7 +56,7 @@ def written_meanwhile(array: NDArray[Any], place: tuple[int, int], values: tuple
 def outcomes(call: Callable[[], object], kind: str) -> tuple[int, int]:
     """How often the call took the array, and how often it refused it for what is wrong with it at times.
 
-    At least `TRIES` times, and on until both were seen.
+    At least `TRIES` times, and on until both were seen. Some machines copy byte by byte, so that a mixture of two numbers may be too large.
     """
     taken = refused = 0
     until = time.monotonic() + PATIENCE_S
@@ -64,7 +65,7 @@ def outcomes(call: Callable[[], object], kind: str) -> tuple[int, int]:
             call()
             taken += 1
         except pliant.Error as error:
-            assert error.kind == kind
+            assert error.kind in (kind, "BadPosition")
             refused += 1
     return taken, refused
 

@@ -18,11 +18,13 @@
 //! | `NodeBox<S>` | public: one node's box, for pictures | `bodies/debug_view.rs` |
 
 mod bounds;
+mod capsule;
 mod points;
 mod real;
 mod shape;
 
 pub(crate) use bounds::{Aabb, Bounds, Origin};
+pub(crate) use capsule::Capsule;
 pub(crate) use points::{IN_A_ROW, Points, RowBounds};
 pub(crate) use real::{OUTWARD, Real, larger, smaller};
 pub(crate) use shape::Shape;

@@ -155,6 +155,7 @@ fn negative<I: Simd>(bytes: u8x32<I>) -> u64 {
 mod tests {
     use super::*;
     use crate::geometry::Aabb;
+    use crate::kernels::boxes::overlap_mask;
     use crate::kernels::{Instructions, dispatch};
     use pliant_oracle::Random;
 
@@ -203,7 +204,7 @@ mod tests {
                     quantized_a.set_fits(a.union_side(), units);
                     quantized_b.set_fits(b.union_side(), units);
                     let apart = QuantizedRows::new(i, &quantized_a).apart(i, &quantized_b);
-                    [apart, crate::kernels::overlap_mask(i, &a, &b)]
+                    [apart, overlap_mask(i, &a, &b)]
                 });
                 assert_eq!(apart & overlap, 0, "{instructions:?} {a:?} {b:?}");
                 surely += apart.count_ones();

@@ -38,6 +38,9 @@ pub(crate) struct Needs {
     pub(crate) grows_by: Option<f32>,
     /// How far the query looks along motions. None if it does not.
     pub(crate) reach: Option<Reach>,
+    /// Whether things are no hits that are further apart than twice `grows_by`, even where their
+    /// boxes overlap.
+    pub(crate) passes_air: bool,
 }
 
 impl Needs {
@@ -47,6 +50,7 @@ impl Needs {
         leaves: Shown::Triangles,
         grows_by: None,
         reach: None,
+        passes_air: true,
     };
 
     /// Whether the test gets triangles, not runs of them.

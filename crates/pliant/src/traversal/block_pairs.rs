@@ -8,7 +8,9 @@
 
 use crate::held::held;
 use crate::ids::BlockId;
-use crate::kernels::{Buffer, Instructions, QuantizedRows, Simd, dispatch, overlap_mask};
+use crate::kernels::{
+    Buffer, EightCapsules, Enclosed, Instructions, QuantizedRows, Simd, dispatch, meeting_mask,
+};
 use crate::mesh::Order;
 use crate::queries::Candidate;
 use crate::tree::BoxedTree;
@@ -31,16 +33,27 @@ struct MaskedPair {
 
 /// Blocks of a tree: their first triangles, and the boxes of all.
 #[derive(Clone, Copy)]
-pub(super) struct Boxes<'b> {
+pub(super) struct Blocks<'b> {
     firsts: FirstsOfBlocks<'b>,
     boxes: BlockBoxes<'b>,
+    capsules: Option<&'b [EightCapsules]>,
 }
 
-impl<'b> Boxes<'b> {
-    pub(super) fn of(BoxedTree { tree, boxes }: BoxedTree<'b>) -> Self {
+impl<'b> Blocks<'b> {
+    pub(super) fn of(of: BoxedTree<'b>) -> Self {
         Self {
-            firsts: tree.leaves.firsts_of_blocks(),
-            boxes: boxes.blocks(),
+            firsts: of.tree.leaves.firsts_of_blocks(),
+            boxes: of.boxes.blocks(),
+            capsules: of.block_capsules(),
+        }
+    }
+
+    /// Boxes of a block, and its capsules.
+    #[inline(always)]
+    fn enclosed(self, block: BlockId) -> Enclosed<'b, 8> {
+        Enclosed {
+            boxes: self.boxes.of(block),
+            capsules: self.capsules.map(|all| &all[block.index()]),
         }
     }
 }
@@ -48,7 +61,7 @@ impl<'b> Boxes<'b> {
 /// Blocks of one body: their boxes, and the adjacency of its mesh.
 #[derive(Clone, Copy)]
 pub(super) struct OneBody<'b> {
-    pub(super) boxes: Boxes<'b>,
+    pub(super) blocks: Blocks<'b>,
     pub(super) quantized: Option<&'b Quantized>,
     /// Vertices of triangles: pairs that share one are left out.
     pub(super) order: &'b Order,
@@ -70,7 +83,7 @@ impl BlockTests {
     pub(super) fn of_two(
         &mut self,
         instructions: Instructions,
-        boxes: [Boxes; 2],
+        boxes: [Blocks; 2],
         pairs: &[BlockPair],
         left_out: Option<&Order>,
     ) {
@@ -99,7 +112,7 @@ impl BlockTests {
         crowded.clear();
         dispatch!(instructions, i => {
             non_adjacent(i, quantized, neighbours, pairs, &mut self.compared, crowded);
-            overlapping(i, body.boxes, &self.compared, found);
+            overlapping(i, body.blocks, &self.compared, found);
         });
         if !crowded.is_empty() {
             dispatch!(instructions, i => of_one(i, body, crowded, found));
@@ -112,7 +125,7 @@ impl BlockTests {
     pub(super) fn of_neighbours(
         &mut self,
         instructions: Instructions,
-        boxes: Boxes,
+        boxes: Blocks,
         quantized: Option<&Quantized>,
         neighbours: &Neighbours,
         run: &mut Range<u32>,
@@ -132,7 +145,7 @@ impl BlockTests {
 
 /// Pushes the candidates in pairs of blocks of two trees.
 #[inline(always)]
-fn of_two<I: Simd>(i: I, boxes: [Boxes; 2], pairs: &[BlockPair], found: &mut Buffer<Candidate>) {
+fn of_two<I: Simd>(i: I, boxes: [Blocks; 2], pairs: &[BlockPair], found: &mut Buffer<Candidate>) {
     for &blocks in pairs {
         push_overlapping(i, boxes, blocks, u64::MAX, found);
     }
@@ -142,14 +155,14 @@ fn of_two<I: Simd>(i: I, boxes: [Boxes; 2], pairs: &[BlockPair], found: &mut Buf
 #[inline(always)]
 fn push_overlapping<I: Simd>(
     i: I,
-    [of_a, of_b]: [Boxes; 2],
+    [of_a, of_b]: [Blocks; 2],
     [a, b]: BlockPair,
     pairs: u64,
     found: &mut Buffer<Candidate>,
 ) {
     let (first_a, first_b) = (of_a.firsts.of(a), of_b.firsts.of(b));
     let room = found.room();
-    let overlaps = overlap_mask(i, of_a.boxes.of(a), of_b.boxes.of(b)) & pairs;
+    let overlaps = meeting_mask(i, of_a.enclosed(a), of_b.enclosed(b), pairs);
     room.push_bits(overlaps, |bit| {
         [first_a.plus(bit / 8), first_b.plus(bit % 8)]
     });
@@ -158,16 +171,14 @@ fn push_overlapping<I: Simd>(
 /// Pushes the candidates in pairs of blocks of one body: triangles that share no vertex.
 #[inline(always)]
 fn of_one<I: Simd>(i: I, body: OneBody, pairs: &[BlockPair], found: &mut Buffer<Candidate>) {
-    let Boxes { firsts, boxes } = body.boxes;
+    let (blocks, firsts) = (body.blocks, body.blocks.firsts);
     for &[a, b] in pairs {
         let (first_a, first_b) = (firsts.of(a), firsts.of(b));
         let candidate = |bit: u32| [first_a.plus(bit / 8), first_b.plus(bit % 8)];
         let room = found.room();
-        let mut overlaps = overlap_mask(i, boxes.of(a), boxes.of(b));
-        if a == b {
-            // Within one block, each pair of triangles once, and none with itself.
-            overlaps &= STRICT_UPPER;
-        }
+        // Within one block, each pair of triangles once, and none with itself.
+        let asked = if a == b { STRICT_UPPER } else { u64::MAX };
+        let overlaps = meeting_mask(i, blocks.enclosed(a), blocks.enclosed(b), asked);
         if let Some(neighbours) = body.neighbours
             && let Some(compared) = neighbours.compared(i, a, b)
         {
@@ -249,7 +260,7 @@ fn non_adjacent<I: Simd>(
 #[inline(always)]
 fn overlapping<I: Simd>(
     i: I,
-    boxes: Boxes,
+    boxes: Blocks,
     compared: &Buffer<MaskedPair>,
     found: &mut Buffer<Candidate>,
 ) {

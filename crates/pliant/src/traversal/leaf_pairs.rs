@@ -6,7 +6,7 @@
 //! with itself every pair of triangles comes up once, and none with itself. Where leaves are
 //! blocks, neighbours in the mesh are not found by the descent but gone through list by list.
 
-use super::block_pairs::{BlockPair, BlockTests, Boxes, OneBody};
+use super::block_pairs::{BlockPair, BlockTests, Blocks, OneBody};
 use super::context::Context;
 use crate::held::held;
 use crate::ids::BlockId;
@@ -88,17 +88,17 @@ impl LeafTests {
         for start in (0..self.block_pairs.len()).step_by(BLOCK_PAIRS_AT_ONCE) {
             let end = self.block_pairs.len().min(start + BLOCK_PAIRS_AT_ONCE);
             let pairs = &self.block_pairs[start..end];
-            let boxes = Boxes::of(a.boxed_tree());
+            let blocks = Blocks::of(a.boxed_tree(&context.needs));
             if context.pair.is_one_tree() {
                 let body = OneBody {
-                    boxes,
+                    blocks,
                     quantized: a.boxes.quantized(),
                     order: a.read.order,
                     neighbours: a.read.tree.neighbours(),
                 };
                 self.blocks.of_one(instructions, body, pairs);
             } else {
-                let both = [boxes, Boxes::of(b.boxed_tree())];
+                let both = [blocks, Blocks::of(b.boxed_tree(&context.needs))];
                 let left_out = context.pair.is_one_body().then_some(a.read.order);
                 self.blocks.of_two(instructions, both, pairs, left_out);
             }
@@ -145,7 +145,7 @@ impl LeafTests {
     ) {
         let [side, _] = context.pair.sides();
         let leaf_test = leaf_test(context);
-        let boxes = Boxes::of(side.boxed_tree());
+        let blocks = Blocks::of(side.boxed_tree(&context.needs));
         let quantized = side.boxes.quantized();
         let most = context.limits.block_pairs;
         let mut tested = 0;
@@ -153,7 +153,7 @@ impl LeafTests {
         {
             tested += self.blocks.of_neighbours(
                 context.instructions,
-                boxes,
+                blocks,
                 quantized,
                 neighbours,
                 run,

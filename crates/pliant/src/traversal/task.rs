@@ -159,7 +159,7 @@ impl Task {
     ) {
         let needs = &context.needs;
         let sides = context.pair.sides();
-        let trees = sides.map(View::boxed_tree);
+        let trees = sides.map(|side| side.boxed_tree(needs));
         let rules = Rules {
             instructions: context.instructions,
             interrupt: context.interrupt,

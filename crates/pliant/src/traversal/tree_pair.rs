@@ -4,7 +4,7 @@ use crate::geometry::Points;
 use crate::ids::{BodyId, NodeId};
 use crate::kernels::Coordinate;
 use crate::mesh::Order;
-use crate::queries::{CallerIds, NearElements, OwnEdges, Removed};
+use crate::queries::{CallerIds, NearElements, Needs, OwnEdges, Removed};
 use crate::tree::{BoxSet, BoxedTree, Source, Tree};
 use crate::update::Refitted;
 
@@ -115,10 +115,11 @@ impl<S> Copy for View<'_, S> {}
 impl<'v, S> View<'v, S> {
     /// Tree and boxes alone, for a walk.
     #[inline]
-    pub(super) fn boxed_tree(self) -> BoxedTree<'v> {
+    pub(super) fn boxed_tree(self, needs: &Needs) -> BoxedTree<'v> {
         BoxedTree {
             tree: self.read.tree,
             boxes: self.boxes,
+            passes_air: needs.passes_air,
         }
     }
 }

@@ -129,7 +129,7 @@ impl Walk {
 fn note_stale(trees: [BoxedTree<'_>; 2], pair: NodePair, stale: &mut [DirtySet; 2]) -> bool {
     let mut is_any = false;
     for which in 0..2 {
-        let BoxedTree { tree, boxes } = trees[which];
+        let BoxedTree { tree, boxes, .. } = trees[which];
         if let Child::Inner(below) = tree.child(pair[which])
             && !boxes.is_valid(below)
         {

@@ -4,8 +4,11 @@
 
 use super::{BoxSet, Child, Neighbours, STRICT_UPPER, Tree, of_degree};
 use crate::held::held;
-use crate::ids::{LeafId, NodeId};
-use crate::kernels::{BoxLanes, Buffer, Instructions, Simd, dispatch, overlap_mask};
+use crate::ids::{LeafId, NodeId, WideNodeId};
+use crate::kernels::{
+    BoxLanes, Buffer, EightCapsules, Enclosed, Instructions, Simd, dispatch, meeting_mask,
+    meeting_one,
+};
 
 /// Two nodes whose boxes are valid and overlap, or a node with itself.
 pub(crate) type NodePair = [NodeId; 2];
@@ -18,6 +21,46 @@ pub(crate) type LeafPair = [LeafId; 2];
 pub(crate) struct BoxedTree<'t> {
     pub(crate) tree: &'t Tree,
     pub(crate) boxes: &'t BoxSet,
+    /// Whether what capsules show to be apart is left out.
+    pub(crate) passes_air: bool,
+}
+
+impl<'t> BoxedTree<'t> {
+    /// Capsules of the nodes of every wide node, if there are any and they count.
+    #[inline]
+    fn node_capsules(self) -> Option<&'t [EightCapsules]> {
+        self.boxes.node_capsules().filter(|_| self.passes_air)
+    }
+
+    /// Capsules of the triangles of every block, if there are any and they count.
+    #[inline]
+    pub(crate) fn block_capsules(self) -> Option<&'t [EightCapsules]> {
+        self.boxes.block_capsules().filter(|_| self.passes_air)
+    }
+}
+
+/// Boxes and capsules of the nodes of every wide node.
+#[derive(Clone, Copy)]
+struct AllEnclosed<'t, const N: usize> {
+    boxes: &'t [BoxLanes<N>],
+    capsules: Option<&'t [EightCapsules]>,
+}
+
+impl<'t, const N: usize> AllEnclosed<'t, N> {
+    /// Boxes and capsules of a node's wide node, and the node's lane.
+    #[inline(always)]
+    fn one(self, node: NodeId) -> (Enclosed<'t, N>, usize) {
+        let (wide_node, lane) = node.wide_node_and_lane();
+        (self.of(wide_node), lane % N)
+    }
+
+    #[inline(always)]
+    fn of(self, wide_node: WideNodeId) -> Enclosed<'t, N> {
+        Enclosed {
+            boxes: &self.boxes[wide_node.index()],
+            capsules: self.capsules.map(|all| &all[wide_node.index()]),
+        }
+    }
 }
 
 /// Eight consecutive leaves, and a bit for each that is in a pair.
@@ -71,11 +114,16 @@ pub(crate) fn expand(
     found: &mut Worklists,
 ) {
     let of = trees.map(|it| it.tree);
+    let capsules = trees.map(BoxedTree::node_capsules);
     of_degree!([trees[0].boxes.nodes(), trees[1].boxes.nodes()], boxes => {
+        let all = [0, 1].map(|which| AllEnclosed {
+            boxes: boxes[which],
+            capsules: capsules[which],
+        });
         dispatch!(instructions, i => if is_itself {
-            expand_all::<_, _, true>(i, of, boxes, batch, left_out, found);
+            expand_all::<_, _, true>(i, of, all, batch, left_out, found);
         } else {
-            expand_all::<_, _, false>(i, of, boxes, batch, left_out, found);
+            expand_all::<_, _, false>(i, of, all, batch, left_out, found);
         });
     });
 }
@@ -85,7 +133,7 @@ pub(crate) fn expand(
 fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
     i: I,
     [a, b]: [&Tree; 2],
-    [boxes_a, boxes_b]: [&[BoxLanes<N>]; 2],
+    [all_a, all_b]: [AllEnclosed<N>; 2],
     batch: &[NodePair],
     left_out: Option<&Neighbours>,
     found: &mut Worklists,
@@ -98,10 +146,6 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
     } = found;
     *node_pairs += batch.len() as u64;
     let (nodes_a, nodes_b) = (a.nodes(), b.nodes());
-    let one = |boxes: &[BoxLanes<N>], node: NodeId| {
-        let (wide_node, lane) = node.wide_node_and_lane();
-        boxes[wide_node.index()].get(lane % N)
-    };
     for &[node_a, node_b] in batch {
         match (nodes_a.child(node_a), nodes_b.child(node_b)) {
             (Child::Leaf(leaf_a), Child::Leaf(leaf_b)) => {
@@ -116,13 +160,13 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
                 }
             }
             (Child::Leaf(_), Child::Inner(below)) => {
-                let mask = boxes_b[below.index()].overlaps(&one(boxes_a, node_a));
+                let mask = meeting_one(i, all_a.one(node_a), all_b.of(below));
                 nodes
                     .room()
                     .push_bits(mask, |lane| [node_a, NodeId::new(below, lane as usize)]);
             }
             (Child::Inner(below), Child::Leaf(_)) => {
-                let mask = boxes_a[below.index()].overlaps(&one(boxes_b, node_b));
+                let mask = meeting_one(i, all_b.one(node_b), all_a.of(below));
                 nodes
                     .room()
                     .push_bits(mask, |lane| [NodeId::new(below, lane as usize), node_b]);
@@ -132,7 +176,7 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
                     continue;
                 }
                 let (wide_a, wide_b) = (nodes_a.wide(below_a), nodes_b.wide(below_b));
-                let (boxes_a, boxes_b) = (&boxes_a[below_a.index()], &boxes_b[below_b.index()]);
+                let (of_a, of_b) = (all_a.of(below_a), all_b.of(below_b));
                 if let (Some(first_a), Some(first_b)) = (wide_a.first_leaf, wide_b.first_leaf) {
                     // Leaves side by side: their pairs need not go over the stack. Where some are
                     // left out all boxes are valid: then no leaf is to be refitted.
@@ -157,7 +201,7 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
                         asked = STRICT_UPPER;
                     }
                     let room = leaves.room();
-                    let mask = overlap_mask(i, boxes_a, boxes_b) & asked;
+                    let mask = meeting_mask(i, of_a, of_b, asked);
                     *node_pairs += u64::from(mask.count_ones());
                     let mask = mask & !left_out;
                     room.push_bits(mask, |bit| [first_a.plus(bit / 8), first_b.plus(bit % 8)]);
@@ -181,7 +225,7 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
                     asked = STRICT_UPPER;
                 }
                 let room = nodes.room();
-                let mask = overlap_mask(i, boxes_a, boxes_b) & asked;
+                let mask = meeting_mask(i, of_a, of_b, asked);
                 room.push_bits(mask, |bit| {
                     [
                         NodeId::new(below_a, bit as usize / 8),

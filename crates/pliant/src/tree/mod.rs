@@ -24,7 +24,7 @@ use crate::mesh::Order;
 use crate::threads::{Budget, Executor};
 pub(crate) use boxes::{
     BlockBoxes, BoxSet, BoxSource, Grown, LeavesMut, NodeLanes, NodesMut, Over, Quantized, Source,
-    Version, of_degree, of_source,
+    Version, capsule_of_node, make_of_block, make_of_nodes, of_degree, of_source,
 };
 use build::Plan;
 pub(crate) use expand::{BoxedTree, LeafPair, NodePair, Worklists, expand};
@@ -85,6 +85,11 @@ impl Tree {
     /// Returns how many nodes there are, leaves included: the boxes of a complete update.
     pub(crate) fn node_count(&self) -> usize {
         self.vertices.len()
+    }
+
+    /// Returns the triangles of the whole tree, as places in tree order.
+    pub(crate) fn triangles(&self) -> std::ops::Range<usize> {
+        self.leaves.all_triangles()
     }
 
     /// Whether the table of neighbours is made.

@@ -12,7 +12,7 @@ use crate::kernels::extent::{self, Extent, Four};
 use crate::kernels::{Coordinate, EightBoxes, Simd, dispatch};
 use crate::statistics::Statistics;
 use crate::threads::Grain;
-use crate::tree::{BLOCK_LANES, BoxSource, Leaves, LeavesMut, Over, of_source};
+use crate::tree::{BLOCK_LANES, BoxSource, Leaves, LeavesMut, Over, make_of_block, of_source};
 use std::ops::Range;
 
 /// Words of 64 leaves in a job.
@@ -116,9 +116,15 @@ impl LeafRun<'_> {
         let triangles = &source.shape().triangles[triangles];
         self.leaves += 1;
         self.triangles += triangles.len();
-        let blocks = &mut self.boxes.blocks[block.index() - self.boxes.first_block..];
+        let place = block.index() - self.boxes.first_block;
+        let blocks = &mut self.boxes.blocks[place..];
         for (triangles, block) in triangles.chunks(BLOCK_LANES).zip(blocks) {
             refit_block(i, triangles, block, source);
+        }
+        if let Some(capsules) = self.boxes.capsules.get_mut(place..) {
+            for (triangles, capsules) in triangles.chunks(BLOCK_LANES).zip(capsules) {
+                make_of_block(capsules, triangles, source);
+            }
         }
     }
 }

@@ -73,7 +73,7 @@ fn quantize_all<S: Coordinate>(refit: &Refit, one: &mut Refitted<S>) {
 
 /// Records of each leaf whether it is short enough for its quantized boxes.
 fn set_fits(tree: &Tree, boxes: &mut BoxSet, units: f32) {
-    let (nodes, _, _, Quantized { blocks, .. }) = boxes.all_mut();
+    let ((nodes, ..), _, Quantized { blocks, .. }) = boxes.all_mut();
     for (id, wide_node) in tree.with_ids() {
         let count = wide_node.len();
         nodes.longest_sides(id, |lane, longest| {

@@ -8,7 +8,9 @@ use crate::ids::WideNodeId;
 use crate::kernels::extent::{self, Extent};
 use crate::kernels::{BoxLanes, Coordinate, Simd, dispatch};
 use crate::threads::Grain;
-use crate::tree::{BoxSource, Child, NodesMut, Over, Source, Tree, of_degree, of_source};
+use crate::tree::{
+    BoxSource, Child, NodesMut, Over, Source, Tree, make_of_nodes, of_degree, of_source,
+};
 
 /// Jobs whose wide nodes are refitted between two checks for interruption.
 const UNINTERRUPTED: usize = 64;
@@ -59,9 +61,9 @@ pub(super) fn refit_from_vertices<S: Coordinate>(
     run: &[WideNodeId],
 ) -> u64 {
     let stamp = one.boxes.stamp();
-    let (nodes, stamps) = one.boxes.nodes_mut();
+    let (nodes, stamps, capsules) = one.boxes.nodes_mut();
     of_degree!(nodes, boxes => {
-        let (nodes, boxes) = NodesMut::before(boxes, stamps, one.tree.wide_nodes.len());
+        let (nodes, boxes) = NodesMut::before(boxes, stamps, capsules, one.tree.wide_nodes.len());
         let from = Merged { merges: false, first: 0, boxes };
         let job = NodeRun { run, nodes, from, stamp, made: 0 };
         refit_all(refit, job, one.tree, one.source, |_| {})
@@ -82,10 +84,10 @@ pub(super) fn refit_from_children<S: Coordinate>(
     while let Some(&last) = rest.last() {
         let level = one.tree.level(one.tree.level_of(last));
         let first = rest.partition_point(|wide_node| wide_node.index() < level.start);
-        let (nodes, stamps) = one.boxes.nodes_mut();
+        let (nodes, stamps, capsules) = one.boxes.nodes_mut();
         let run = &rest[first..];
         made += of_degree!(nodes, boxes => {
-            let (nodes, boxes) = NodesMut::before(boxes, stamps, level.end);
+            let (nodes, boxes) = NodesMut::before(boxes, stamps, capsules, level.end);
             let from = Merged { merges: true, first: level.end, boxes };
             let job = NodeRun { run, nodes, from, stamp, made: 0 };
             refit_all(refit, job, one.tree, one.source, |_| {})
@@ -165,6 +167,9 @@ impl<const N: usize, F: Below<N>> NodeRun<'_, N, F> {
         let lanes = &mut self.nodes.boxes[place];
         self.made += self.from.make(i, wide_node, lanes, tree, source);
         self.nodes.stamps[place] = self.stamp;
+        if let Some(capsules) = self.nodes.capsules.get_mut(place) {
+            make_of_nodes(capsules, tree, wide_node, source);
+        }
     }
 }
 

@@ -12,7 +12,7 @@ use crate::ids::{BlockId, LeafId, WideNodeId};
 use crate::kernels::extent::{self, Extent};
 use crate::kernels::{BoxLanes, Coordinate, QuantizedLanes, Simd, quantize};
 use crate::threads::Grain;
-use crate::tree::{BoxSource, LeavesMut, NodesMut, Tree, of_degree};
+use crate::tree::{BoxSource, LeavesMut, NodesMut, Tree, make_of_block, of_degree};
 
 /// Largest change of units since the step before, as a factor. With more, boxes quantized on the
 /// way are discarded.
@@ -46,7 +46,7 @@ pub(super) fn refit_whole<S: Coordinate>(
     };
     list(wide_nodes, true);
     let stamp = one.boxes.stamp();
-    let (nodes, stamps, leaves, quantized) = one.boxes.all_mut();
+    let ((nodes, stamps, capsules), leaves, quantized) = one.boxes.all_mut();
     let units = quantized.units;
     quantized
         .blocks
@@ -54,7 +54,7 @@ pub(super) fn refit_whole<S: Coordinate>(
     let mut triangles = 0;
     let made = of_degree!(nodes, boxes => {
         let end = boxes.len();
-        let nodes = NodesMut::before(boxes, stamps, end).0;
+        let nodes = NodesMut::before(boxes, stamps, capsules, end).0;
         let from = Triangles { leaves, quantized: &mut quantized.blocks, stamp, units, made: 0 };
         let whole = NodeRun { run: wide_nodes, nodes, from, stamp, made: 0 };
         refit_all(refit, whole, tree, one.source, |from| triangles += from.made as u64)
@@ -117,6 +117,9 @@ impl<const N: usize> Below<N> for Triangles<'_> {
             boxes[lane] = refit_block(i, corners, &mut blocks[lane], source);
             quantized[lane] = quantize(i, &blocks[lane], self.units);
             stamps[lane] = self.stamp;
+            if let Some(capsules) = self.leaves.capsules.get_mut(place + lane) {
+                make_of_block(capsules, corners, source);
+            }
         }
         extent::store(boxes, count, lanes);
         for (quantized, longest) in quantized.iter_mut().zip(lanes.longest_sides()) {

@@ -6,7 +6,7 @@
 
 use crate::common::{
     CHOICES, Motion, TrianglesOf, covering, covering_configurations, covers_every_pair,
-    every_configuration, share, sheet, widened, world_of,
+    every_configuration, share, sheet, thin, widened, world_of,
 };
 use pliant::{ErrorKind, Options, Pair, Scalar, Selection, World, reference};
 use proptest::prelude::*;
@@ -255,6 +255,37 @@ fn cloth_f32() {
 #[test]
 fn cloth_f64() {
     check_all::<f64>(&scene("cloth", 648, [10, 35, 50]), widened);
+}
+
+/// Fans, strips and tubes of long thin triangles, and a sheet of good ones, turned in every frame.
+fn thin_bodies() -> Vec<Motion> {
+    let (triangles, flat) = sheet(9);
+    let centred = flat
+        .iter()
+        .map(|&[x, y, z]| [4.0 * x - 2.0, 4.0 * y - 2.0, z]);
+    let bodies = [
+        thin::fan(60),
+        thin::strip(60),
+        thin::tube(60),
+        (triangles, centred.collect()),
+    ];
+    let moved = |(number, (triangles, positions)): (usize, (_, Vec<[f32; 3]>))| Motion {
+        triangles,
+        frames: (0..3)
+            .map(|frame| thin::turned(&positions, 0.4 + number as f32 * 0.7 + frame as f32 * 0.3))
+            .collect(),
+    };
+    bodies.into_iter().enumerate().map(moved).collect()
+}
+
+#[test]
+fn thin_triangles_f32() {
+    check_all::<f32>(&thin_bodies(), <[_]>::to_vec);
+}
+
+#[test]
+fn thin_triangles_f64() {
+    check_all::<f64>(&thin_bodies(), widened);
 }
 
 #[test]

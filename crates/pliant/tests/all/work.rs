@@ -1,6 +1,6 @@
 //! Counted work, not time: how many boxes each update makes, which is the paper's point.
 
-use crate::common::TrianglesOf;
+use crate::common::{TrianglesOf, sheet, thin};
 use pliant::{Degree, Options, Partition, Scalar, Selection, Statistics, Update, World};
 use pliant_scenes::Scene;
 use std::num::NonZeroU32;
@@ -88,6 +88,40 @@ fn levels_at_once_make_the_same_pairs_with_other_boxes() {
     assert_eq!(one.node_pairs, two.node_pairs);
     assert_eq!(one.boxes_bottom_up, two.boxes_bottom_up);
     assert!(two.boxes_top_down >= one.boxes_top_down);
+}
+
+/// Long thin triangles, turned against the axes, whose boxes hold mostly air.
+#[test]
+fn thin_triangles_have_few_candidates() {
+    let count = 2_000;
+    let bodies = [thin::fan(count), thin::strip(count), thin::tube(count)];
+    let sheet = sheet(101);
+    for (number, (triangles, positions)) in bodies.iter().enumerate() {
+        let mut world = World::<f32>::new();
+        let body = world.add(triangles, positions).unwrap();
+        let centred: Vec<_> = sheet.1.iter().map(|p| p.map(|x| 2.0 * x - 1.0)).collect();
+        let flat = world.add(&sheet.0, &centred).unwrap();
+        let other = world.add(triangles, positions).unwrap();
+        for angle in [0.4, 1.3, 2.9] {
+            for (body, angle) in [(body, angle), (flat, 0.0), (other, -2.0 * angle)] {
+                let positions = if body == flat { &centred } else { positions };
+                let turned = thin::turned(positions, angle);
+                world.set_positions(body, &turned).unwrap();
+            }
+            for of in [
+                Selection::Between(body, flat),
+                Selection::Between(body, other),
+                Selection::Within(body),
+            ] {
+                let pairs = world.triangles_of(of).len() as u64;
+                let candidates = world.statistics().candidate_pairs;
+                eprintln!("{number}, {of:?}: {candidates} candidates, {pairs} pairs");
+                let limit = 4 * pairs + 8 * triangles.len() as u64;
+                assert!(candidates < limit, "{number}, {of:?}: {candidates}");
+            }
+        }
+        world.validate().unwrap();
+    }
 }
 
 /// A folding sheet far from the origin, where an f32 has no digits left for its shape.

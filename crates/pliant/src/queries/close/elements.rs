@@ -98,7 +98,10 @@ where
     type Buffers = ();
 
     fn needs(&self) -> Needs {
-        self.candidates.needs()
+        Needs {
+            passes_air: true,
+            ..self.candidates.needs()
+        }
     }
 
     fn test(&self, leaves: &LeafTest<K::Scalar>, batch: Batch, found: &mut FoundBy<Self>) {

@@ -127,6 +127,7 @@ impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
     fn needs(&self) -> Needs {
         Needs {
             reach: Some(self.reach),
+            passes_air: true,
             ..self.candidates.needs()
         }
     }

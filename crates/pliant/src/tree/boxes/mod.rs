@@ -6,13 +6,17 @@
 //! stamp, else **stale**. Two rules hold at all times: no stale box is read, and above a valid box
 //! all are valid. `update` makes boxes valid, `traversal` asks for it, `validate` checks it.
 
+mod capsules;
 mod lanes;
 mod source;
 
 use super::Tree;
+use crate::geometry::Shape;
 use crate::held::{self, held};
 use crate::ids::{BlockId, LeafId, WideNodeId};
-use crate::kernels::{BoxLanes, EightBoxes, QuantizedLanes};
+use crate::kernels::{BoxLanes, Coordinate, EightBoxes, EightCapsules, QuantizedLanes};
+use capsules::Capsules;
+pub(crate) use capsules::{capsule_of_node, make_of_block, make_of_nodes};
 pub(crate) use lanes::{NodeLanes, of_degree};
 pub(crate) use source::{BoxSource, Grown, Over, Source, Version, of_source};
 
@@ -44,6 +48,9 @@ pub(crate) struct BoxSet {
     /// Quantized boxes of triangles, for a body that meets itself and whose leaves are blocks; else
     /// none.
     quantized: Quantized,
+    /// Capsules beside the boxes, for a body of long thin triangles; decided by its first shape.
+    capsules: Option<Box<Capsules>>,
+    is_measured: bool,
 }
 
 /// Quantized boxes of the triangles in leaves that are blocks.
@@ -81,6 +88,8 @@ pub(crate) struct NodesMut<'b, const N: usize> {
     pub(crate) first: usize,
     pub(crate) boxes: &'b mut [BoxLanes<N>],
     pub(crate) stamps: &'b mut [u64],
+    /// Capsules of the same wide nodes, or none at all.
+    pub(crate) capsules: &'b mut [EightCapsules],
 }
 
 /// Mutable run of the boxes and stamps of leaves: blocks from `first_block` on, stamps from
@@ -90,6 +99,8 @@ pub(crate) struct LeavesMut<'b> {
     pub(crate) stamps: &'b mut [u64],
     pub(crate) first_block: usize,
     pub(crate) blocks: &'b mut [EightBoxes],
+    /// Capsules of the same blocks, or none at all.
+    pub(crate) capsules: &'b mut [EightCapsules],
 }
 
 impl BoxSet {
@@ -108,6 +119,16 @@ impl BoxSet {
             complete_leaves: NEVER,
             reached: 0,
             quantized: Quantized::default(),
+            capsules: None,
+            is_measured: false,
+        }
+    }
+
+    /// Decides by the first shape whether boxes have capsules beside them.
+    pub(crate) fn measure<S: Coordinate>(&mut self, tree: &Tree, shape: &Shape<S>) {
+        if !self.is_measured {
+            self.is_measured = true;
+            self.capsules = Capsules::new(tree, shape);
         }
     }
 
@@ -185,9 +206,25 @@ impl BoxSet {
         &self.nodes
     }
 
-    /// Returns the boxes of nodes and the stamps of wide nodes, to write.
-    pub(crate) fn nodes_mut(&mut self) -> (&mut NodeLanes, &mut [u64]) {
-        (&mut self.nodes, &mut self.node_stamps)
+    /// Returns the boxes, stamps and capsules of wide nodes, to write.
+    pub(crate) fn nodes_mut(&mut self) -> (&mut NodeLanes, &mut [u64], &mut [EightCapsules]) {
+        self.all_mut().0
+    }
+
+    /// Returns the capsules of the nodes of every wide node, if there are any.
+    #[inline(always)]
+    pub(crate) fn node_capsules(&self) -> Option<&[EightCapsules]> {
+        self.capsules
+            .as_ref()
+            .map(|capsules| capsules.nodes.as_slice())
+    }
+
+    /// Returns the capsules of the triangles of every block, if there are any.
+    #[inline(always)]
+    pub(crate) fn block_capsules(&self) -> Option<&[EightCapsules]> {
+        self.capsules
+            .as_ref()
+            .map(|capsules| capsules.blocks.as_slice())
     }
 
     /// Returns the boxes of triangles, to read valid ones.
@@ -212,17 +249,30 @@ impl BoxSet {
         self.quantized.stamp = self.stamp;
     }
 
-    /// Returns everything to write: boxes and stamps of nodes, leaves, and quantized boxes.
+    /// Returns everything to write: of nodes, of leaves, and quantized boxes.
     pub(crate) fn all_mut(
         &mut self,
-    ) -> (&mut NodeLanes, &mut [u64], LeavesMut<'_>, &mut Quantized) {
-        let leaves = LeavesMut::all(&mut self.leaf_stamps, &mut self.blocks);
-        (
-            &mut self.nodes,
-            &mut self.node_stamps,
-            leaves,
-            &mut self.quantized,
-        )
+    ) -> (
+        (&mut NodeLanes, &mut [u64], &mut [EightCapsules]),
+        LeavesMut<'_>,
+        &mut Quantized,
+    ) {
+        let (of_nodes, of_blocks) = match &mut self.capsules {
+            Some(capsules) => (
+                capsules.nodes.as_mut_slice(),
+                capsules.blocks.as_mut_slice(),
+            ),
+            None => Default::default(),
+        };
+        let leaves = LeavesMut {
+            first_leaf: 0,
+            stamps: &mut self.leaf_stamps,
+            first_block: 0,
+            blocks: &mut self.blocks,
+            capsules: of_blocks,
+        };
+        let nodes = (&mut self.nodes, self.node_stamps.as_mut_slice(), of_nodes);
+        (nodes, leaves, &mut self.quantized)
     }
 
     /// Counts leaves whose triangles had boxes made.
@@ -237,7 +287,7 @@ impl BoxSet {
 
     /// Returns all leaves, to write.
     pub(crate) fn leaves_mut(&mut self) -> LeavesMut<'_> {
-        LeavesMut::all(&mut self.leaf_stamps, &mut self.blocks)
+        self.all_mut().1
     }
 }
 
@@ -246,6 +296,7 @@ impl<'b, const N: usize> NodesMut<'b, N> {
     pub(crate) fn before(
         boxes: &'b mut [BoxLanes<N>],
         stamps: &'b mut [u64],
+        capsules: &'b mut [EightCapsules],
         end: usize,
     ) -> (Self, &'b [BoxLanes<N>]) {
         let (boxes, below) = boxes.split_at_mut(end);
@@ -253,6 +304,7 @@ impl<'b, const N: usize> NodesMut<'b, N> {
             first: 0,
             boxes,
             stamps: &mut stamps[..end],
+            capsules,
         };
         (nodes, below)
     }
@@ -262,43 +314,39 @@ impl<'b, const N: usize> NodesMut<'b, N> {
         let place = wide_node.index() - self.first;
         let (boxes, later_boxes) = self.boxes.split_at_mut(place);
         let (stamps, later_stamps) = self.stamps.split_at_mut(place);
-        let run = |first, boxes, stamps| Self {
+        let (capsules, later_capsules) = self.capsules.split_at_mut(place.min(self.capsules.len()));
+        let run = |first, boxes, stamps, capsules| Self {
             first,
             boxes,
             stamps,
+            capsules,
         };
         [
-            run(self.first, boxes, stamps),
-            run(wide_node.index(), later_boxes, later_stamps),
+            run(self.first, boxes, stamps, capsules),
+            run(wide_node.index(), later_boxes, later_stamps, later_capsules),
         ]
     }
 }
 
-impl<'b> LeavesMut<'b> {
-    /// The run of all leaves.
-    fn all(stamps: &'b mut [u64], blocks: &'b mut [EightBoxes]) -> Self {
-        Self {
-            first_leaf: 0,
-            stamps,
-            first_block: 0,
-            blocks,
-        }
-    }
-
+impl LeavesMut<'_> {
     /// Cuts the run in two before a leaf whose first block is `block`.
     pub(crate) fn split_before(self, leaf: LeafId, block: BlockId) -> [Self; 2] {
         let (stamps, later_stamps) = self.stamps.split_at_mut(leaf.index() - self.first_leaf);
-        let (blocks, later_blocks) = self.blocks.split_at_mut(block.index() - self.first_block);
+        let place = block.index() - self.first_block;
+        let (blocks, later_blocks) = self.blocks.split_at_mut(place);
+        let (capsules, later_capsules) = self.capsules.split_at_mut(place.min(self.capsules.len()));
         let later = Self {
             first_leaf: leaf.index(),
             stamps: later_stamps,
             first_block: block.index(),
             blocks: later_blocks,
+            capsules: later_capsules,
         };
         [
             Self {
                 stamps,
                 blocks,
+                capsules,
                 ..self
             },
             later,
@@ -307,4 +355,6 @@ impl<'b> LeavesMut<'b> {
 }
 
 held!(BoxSet: node_stamps[], blocks[], leaf_stamps[];
-    |set| of_degree!(&set.nodes, nodes => held::list(nodes)) + held::list(&set.quantized.blocks));
+    |set| of_degree!(&set.nodes, nodes => held::list(nodes))
+        + held::list(&set.quantized.blocks)
+        + held::boxes(&set.capsules));

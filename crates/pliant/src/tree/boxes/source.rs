@@ -10,7 +10,7 @@
 //!
 //! Growing keeps both, because rounding is monotonic.
 
-use crate::geometry::{Aabb, Bounds, Shape};
+use crate::geometry::{Aabb, Bounds, Capsule, Real, Shape};
 use crate::ids::TreeVertex;
 use crate::kernels::extent::{self, Extent, TWELVE};
 use crate::kernels::{Coordinate, Simd};
@@ -58,6 +58,9 @@ pub(crate) trait BoxSource: Sync {
     /// Returns the box over some vertices.
     fn over<I: Simd>(&self, i: I, vertices: Over) -> Extent<I>;
 
+    /// Returns a capsule round `count` vertices, in the sense in which a box is over them.
+    fn capsule(&self, count: usize, vertex: &dyn Fn(usize) -> TreeVertex) -> Capsule;
+
     /// Returns the box over some vertices, one after the other: the reference for
     /// [`over`](Self::over).
     fn plainly(&self, vertices: impl Iterator<Item = TreeVertex> + Clone) -> Aabb;
@@ -85,6 +88,10 @@ impl<S: Coordinate> BoxSource for Shape<'_, S> {
             Over::Twelve(vertices) => extent::of_twelve(i, self, vertices),
             Over::Triangle(&corners) => extent::of_corners(i, self, corners),
         }
+    }
+
+    fn capsule(&self, count: usize, vertex: &dyn Fn(usize) -> TreeVertex) -> Capsule {
+        Capsule::around(count, &|which| relative(self, vertex(which)), 0.0)
     }
 
     fn plainly(&self, vertices: impl Iterator<Item = TreeVertex> + Clone) -> Aabb {
@@ -130,6 +137,18 @@ impl<S: Coordinate> BoxSource for Grown<'_, S> {
         extent::grown(i, both, self.distance)
     }
 
+    fn capsule(&self, count: usize, vertex: &dyn Fn(usize) -> TreeVertex) -> Capsule {
+        let from = |which| relative(&self.from, vertex(which));
+        let Some(to) = &self.to else {
+            return Capsule::around(count, &from, self.distance);
+        };
+        let of_both = |which| match usize::checked_sub(which, count) {
+            Some(which) => relative(to, vertex(which)),
+            None => from(which),
+        };
+        Capsule::around(2 * count, &of_both, self.distance)
+    }
+
     fn plainly(&self, vertices: impl Iterator<Item = TreeVertex> + Clone) -> Aabb {
         let mut both = self.from.plainly(vertices.clone());
         if let Some(to) = &self.to {
@@ -137,6 +156,12 @@ impl<S: Coordinate> BoxSource for Grown<'_, S> {
         }
         both.grown(self.distance)
     }
+}
+
+/// Position of a vertex relative to the origin, rounded to the nearest `f64`.
+fn relative<S: Coordinate>(shape: &Shape<'_, S>, vertex: TreeVertex) -> [f64; 3] {
+    let p = shape.positions.get(vertex).map(Real::to_f64);
+    [0, 1, 2].map(|axis| p[axis] - shape.origin[axis])
 }
 
 /// Source of a set of boxes of one body: its shape, or grown boxes over its shape and motion.

@@ -4,7 +4,7 @@
 
 mod connectedness;
 
-use super::{BLOCK_LANES, BoxSet, BoxSource, Child, Tree};
+use super::{BLOCK_LANES, BoxSet, BoxSource, Child, Tree, capsule_of_node};
 use crate::ids::{BlockId, LeafId, NodeId, TreeTriangle, TreeVertex};
 use crate::mesh::Order;
 use crate::options::Partition;
@@ -105,6 +105,14 @@ impl Tree {
                     "{wide_node:?}, lane {lane}: claims to be valid and is {found:?}, \
                      not {expected:?}"
                 );
+                if let Some(capsules) = boxes.node_capsules() {
+                    let found = capsules[wide_node.index()].get(lane);
+                    let expected = capsule_of_node(self, number, source);
+                    ensure!(
+                        found == expected,
+                        "{wide_node:?}, lane {lane}: its capsule is {found:?}, not {expected:?}"
+                    );
+                }
             }
             match self.child(node) {
                 Child::Leaf(leaf) => self.validate_leaf_boxes(leaf, is_valid, boxes, source)?,
@@ -180,6 +188,14 @@ impl Tree {
                 found == expected,
                 "{leaf:?}: {triangle:?} has box {found:?}, not {expected:?}"
             );
+            if let Some(capsules) = boxes.block_capsules() {
+                let found = capsules[block.index()].get(lane as usize);
+                let expected = source.capsule(3, &|which| corners[which]);
+                ensure!(
+                    found == expected,
+                    "{leaf:?}: {triangle:?} has capsule {found:?}, not {expected:?}"
+                );
+            }
         }
         Ok(())
     }

@@ -1,0 +1,112 @@
+//! Capsules: all points within a distance of a segment, for what is long and thin.
+//!
+//! An axis-aligned box of a long thin triangle holds mostly air, a capsule does not. Source: the
+//! line swept spheres of Larsen, Gottschalk, Lin and Manocha 1999. Invariant: the capsule holds
+//! every point that it was made round, whatever rounding did.
+
+/// Capsule: the points within `radius` of the segment from `middle - reach along` to
+/// `middle + reach along`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Capsule {
+    pub(crate) middle: [f32; 3],
+    /// Direction of the segment: of length one half, so that no sum of products overflows.
+    pub(crate) along: [f32; 3],
+    pub(crate) reach: f32,
+    pub(crate) radius: f32,
+}
+
+/// Largest coordinate or length of a capsule: 2^60. Squares then fit `f32`.
+const FARTHEST: f64 = (1_u64 << 60) as f64;
+/// Part by which a radius is made larger, for rounding in double precision: 2^-45.
+const ROUNDING: f64 = 1.0 / (1_u64 << 45) as f64;
+
+impl Capsule {
+    /// Capsule that holds all of space: it is apart from nothing.
+    pub(crate) const EVERYTHING: Self = Self {
+        middle: [0.0; 3],
+        along: [0.0; 3],
+        reach: 0.0,
+        radius: f32::INFINITY,
+    };
+
+    /// Capsule round `count` points, at least one, and round all points within `distance` of them.
+    ///
+    /// Its direction is from the point farthest from the first to the point farthest from that.
+    /// Coordinates may be off by 2^-53 of themselves. O(count).
+    pub(crate) fn around(count: usize, point: &dyn Fn(usize) -> [f64; 3], distance: f32) -> Self {
+        let points = || (0..count).map(point);
+        let farthest = |from: [f64; 3]| {
+            let mut best = (0.0, from);
+            for point in points() {
+                let square = square(minus(point, from));
+                if square > best.0 {
+                    best = (square, point);
+                }
+            }
+            best
+        };
+        let (_, start) = farthest(point(0));
+        let (square_of_length, end) = farthest(start);
+        let (way, length) = (minus(end, start), square_of_length.sqrt());
+        let along = if length > 0.0 {
+            way.map(|x| (0.5 * x / length) as f32)
+        } else {
+            [0.0; 3]
+        };
+        let wide = along.map(f64::from);
+        let scale = 1.0 / square(wide).max(0.1);
+        // The axis is moved to halfway between it and the point that is farthest from it.
+        let mut aside = [0.0; 3];
+        for point in points() {
+            let from = minus(point, start);
+            let off = minus(from, times(dot(from, wide) * scale, wide));
+            if square(off) > square(aside) {
+                aside = off;
+            }
+        }
+        let middle = [0, 1, 2].map(|axis| (start[axis] + 0.5 * (way[axis] + aside[axis])) as f32);
+        let from = middle.map(f64::from);
+        let mut reach: f64 = 0.0;
+        for point in points() {
+            reach = reach.max((dot(minus(point, from), wide) * scale).abs());
+        }
+        let reach = (reach as f32).next_up();
+        let (mut most, mut largest) = (0.0_f64, 0.0_f64);
+        for point in points() {
+            let part =
+                (dot(minus(point, from), wide) * scale).clamp(-f64::from(reach), reach.into());
+            most = most.max(square(minus(minus(point, from), times(part, wide))));
+            for axis in 0..3 {
+                largest = largest.max(point[axis].abs()).max(from[axis].abs());
+            }
+        }
+        // Differences of coordinates, and parts of the reach, are rounded.
+        let radius = most.sqrt() + ROUNDING * (largest + f64::from(reach)) + f64::from(distance);
+        if largest.max(reach.into()).max(radius) >= FARTHEST {
+            return Self::EVERYTHING;
+        }
+        let radius = (radius * (1.0 + ROUNDING)) as f32;
+        Self {
+            middle,
+            along,
+            reach,
+            radius: radius.next_up() + 4.0 * f32::MIN_POSITIVE,
+        }
+    }
+}
+
+fn times(by: f64, p: [f64; 3]) -> [f64; 3] {
+    [by * p[0], by * p[1], by * p[2]]
+}
+
+fn minus(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
+    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
+}
+
+fn dot(p: [f64; 3], q: [f64; 3]) -> f64 {
+    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+}
+
+fn square(p: [f64; 3]) -> f64 {
+    dot(p, p)
+}

@@ -15,7 +15,8 @@
 //!
 //! Size and number are defaults: [`Scene::new`] takes the triangles of a body, [`Scene::gather`]
 //! any number of bodies. All bodies of a scene share one connectivity, which never changes. In a
-//! [`ChangingScene`] it does: `cut`, `tear`, `fuse`, `shuffle`, `remesh`.
+//! [`ChangingScene`] it does: `cut`, `tear`, `fuse`, `shuffle`, `remesh`. Meshes of long thin
+//! triangles are in [`thin`].
 //!
 //! ```
 //! use pliant_scenes::{Asks, Scene};
@@ -41,6 +42,7 @@ mod bodies;
 mod bumps;
 mod motion;
 mod surface;
+pub mod thin;
 
 mod rng;
 mod trig;

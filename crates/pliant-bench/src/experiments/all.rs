@@ -1,6 +1,6 @@
 //! List of the experiments of this build: the one place to add one.
 
-use super::{Experiment, bodies, degrees, levels, splits, table_1, when};
+use super::{Experiment, bodies, degrees, levels, shapes, splits, table_1, when};
 #[cfg(feature = "peers")]
 use super::{change, close, cloth, degenerate, experiment_1, experiment_3, near, peers};
 
@@ -21,6 +21,7 @@ pub const EXPERIMENTS: &[Experiment] = &[
     cloth::EXPERIMENT,
     #[cfg(feature = "peers")]
     degenerate::EXPERIMENT,
+    shapes::EXPERIMENT,
     #[cfg(feature = "peers")]
     peers::EXPERIMENT,
     #[cfg(feature = "peers")]

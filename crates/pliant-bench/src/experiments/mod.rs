@@ -26,6 +26,7 @@ mod near;
 mod peers;
 #[cfg(feature = "peers")]
 mod response;
+mod shapes;
 mod splits;
 mod table_1;
 pub mod titles;

@@ -14,7 +14,7 @@ pub struct Title {
 }
 
 /// All experiments in the order of `all`, whether or not this build has them.
-pub const TITLES: [Title; 14] = [
+pub const TITLES: [Title; 15] = [
     EXPERIMENT_1,
     TABLE_1,
     EXPERIMENT_3,
@@ -24,6 +24,7 @@ pub const TITLES: [Title; 14] = [
     BODIES,
     CLOTH,
     DEGENERATE,
+    SHAPES,
     PEERS,
     NEAR,
     CLOSE,
@@ -83,6 +84,12 @@ pub(super) const DEGENERATE: Title = Title {
     name: "degenerate",
     about: "coplanar grids that slide; spheres 10^4 from the origin",
     with_peers: true,
+};
+
+pub(super) const SHAPES: Title = Title {
+    name: "shapes",
+    about: "long thin triangles: fans, strips and tubes that turn, beside good triangles",
+    with_peers: false,
 };
 
 pub(super) const PEERS: Title = Title {

@@ -496,9 +496,10 @@ impl<S: Coordinate> Body<S> {
         let know_neighbours = self.parts.know_neighbours();
         let (mesh, shape) = (&self.mesh, &self.shape);
         let mended = self.rebuild.advance(mesh, shape, know_neighbours, options);
-        let Some((order, tree, changed)) = mended else {
+        let Some((order, mut tree, changed)) = mended else {
             return false;
         };
+        tree.has_thin = self.parts.all().any(|part| part.tree().has_thin);
         self.exchange_tree(order, tree, &changed);
         // Triangles that were edited since are marked as removed in the tree, and come behind it.
         if !changed.is_empty() {

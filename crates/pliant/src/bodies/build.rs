@@ -5,7 +5,7 @@ use crate::ids::TreeVertex;
 use crate::mesh::{Order, Topology};
 use crate::options::{Options, Partition};
 use crate::tree::Tree;
-use crate::tree::build::{Balanced, Connectivity, CutAt, InitialShape, Plan, plan};
+use crate::tree::build::{Balanced, Connectivity, CutAt, InitialShape, Plan, has_many_thin, plan};
 
 /// Builds the tree that the options ask for, and the order into which it brings the mesh.
 pub(crate) fn build<S: Real>(
@@ -44,7 +44,7 @@ pub(crate) fn divide<S: Real>(
         let rule = InitialShape::new(triangles.into(), positions.into(), cut, degree);
         plan(count, degree, leaf_size, rule)
     };
-    match options.partition {
+    let plan = match options.partition {
         Partition::Centre => by_shape(CutAt::Centre),
         Partition::Mean => by_shape(CutAt::Mean),
         Partition::Balanced => {
@@ -55,5 +55,9 @@ pub(crate) fn divide<S: Real>(
             let rule = Connectivity::new(triangles, degree, leaf_size);
             plan(count, degree, leaf_size, rule)
         }
+    };
+    Plan {
+        has_thin: has_many_thin(triangles, positions),
+        ..plan
     }
 }

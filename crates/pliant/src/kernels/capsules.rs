@@ -5,7 +5,7 @@
 //! are square to its axis and to an axis of the box. For two capsules these are the direction
 //! square to both axes, and the one from axis to axis.
 
-use super::boxes::{BoxLanes, Registers, overlap_mask};
+use super::boxes::{BoxLanes, Registers};
 use super::coordinate::Vectors;
 use super::vector::{cross, dot, minus, times};
 use crate::geometry::Capsule;
@@ -195,42 +195,11 @@ impl<I: Simd> Middles<I> {
     }
 }
 
-/// Mask of the pairs, bit `8 i + j`, of those asked for that may meet: boxes overlap, and capsules
-/// do not show that they are apart.
-#[inline(always)]
-pub(crate) fn meeting_mask<I: Simd, const N: usize>(
-    i: I,
-    a: Enclosed<N>,
-    b: Enclosed<N>,
-    asked: u64,
-) -> u64 {
-    let mask = overlap_mask(i, a.boxes, b.boxes) & asked;
-    if a.capsules.is_none() && b.capsules.is_none() {
-        return mask;
-    }
-    mask & !apart_by_capsules(i, a, b, mask)
-}
-
-/// Mask of the lanes of `others` that may meet one, a lane: as in [`meeting_mask`].
-#[inline(always)]
-pub(crate) fn meeting_one<I: Simd, const N: usize>(
-    i: I,
-    (one, lane): (Enclosed<N>, usize),
-    others: Enclosed<N>,
-) -> u64 {
-    let mask = others.boxes.overlaps(&one.boxes.get(lane));
-    if one.capsules.is_none() && others.capsules.is_none() {
-        return mask;
-    }
-    let row = mask << (8 * lane);
-    (row & !apart_by_capsules(i, one, others, row)) >> (8 * lane)
-}
-
-/// Mask of pairs whose boxes overlap, among `pairs`, that capsules show to be apart.
+/// Clears the bits of pairs, `8 i + j`, that capsules show to be apart. The boxes of all overlap.
 ///
 /// It is called and not inlined, for there are few who need it.
 #[inline(never)]
-fn apart_by_capsules<I: Simd, const N: usize>(
+pub(crate) fn without_air<I: Simd, const N: usize>(
     i: I,
     a: Enclosed<N>,
     b: Enclosed<N>,
@@ -238,7 +207,7 @@ fn apart_by_capsules<I: Simd, const N: usize>(
 ) -> u64 {
     i.vectorize(
         #[inline(always)]
-        || apart(i, a, b, pairs),
+        || pairs & !apart(i, a, b, pairs),
     )
 }
 
@@ -270,7 +239,7 @@ fn apart<I: Simd, const N: usize>(i: I, a: Enclosed<N>, b: Enclosed<N>, pairs: u
 mod tests {
     use super::*;
     use crate::geometry::{Aabb, Bounds};
-    use crate::kernels::{Instructions, dispatch};
+    use crate::kernels::{Instructions, dispatch, overlap_mask};
     use pliant_oracle::{Class, Random, intersect};
 
     type Triangle = [[f64; 3]; 3];
@@ -298,7 +267,7 @@ mod tests {
                 let of = |has_a: bool, has_b: bool| {
                     let a = Enclosed { boxes: &a.0, capsules: has_a.then_some(&a.1) };
                     let b = Enclosed { boxes: &b.0, capsules: has_b.then_some(&b.1) };
-                    pairs & !meeting_mask(i, a, b, pairs)
+                    pairs & !without_air(i, a, b, pairs)
                 };
                 let (both, first, second) = (of(true, true), of(true, false), of(false, true));
                 assert_eq!((first | second) & !both, 0);

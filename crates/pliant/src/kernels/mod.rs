@@ -46,9 +46,9 @@ pub(crate) mod signs;
 mod stars;
 mod vector;
 
-pub(crate) use boxes::{BoxLanes, EightBoxes, near_mask};
+pub(crate) use boxes::{BoxLanes, EightBoxes, near_mask, overlap_mask};
 pub(crate) use buffer::Buffer;
-pub(crate) use capsules::{EightCapsules, Enclosed, meeting_mask, meeting_one};
+pub(crate) use capsules::{EightCapsules, Enclosed, without_air};
 pub(crate) use coordinate::{Coordinate, TrianglePairs};
 pub(crate) use copy_checked::{check, copy_checked};
 pub(crate) use fearless_simd::Simd;

@@ -155,8 +155,7 @@ fn negative<I: Simd>(bytes: u8x32<I>) -> u64 {
 mod tests {
     use super::*;
     use crate::geometry::Aabb;
-    use crate::kernels::boxes::overlap_mask;
-    use crate::kernels::{Instructions, dispatch};
+    use crate::kernels::{Instructions, dispatch, overlap_mask};
     use pliant_oracle::Random;
 
     /// Eight boxes in a box of at most `units` units from `corner` on, which lies on all sides of

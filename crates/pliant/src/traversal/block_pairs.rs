@@ -9,7 +9,8 @@
 use crate::held::held;
 use crate::ids::BlockId;
 use crate::kernels::{
-    Buffer, EightCapsules, Enclosed, Instructions, QuantizedRows, Simd, dispatch, meeting_mask,
+    Buffer, EightCapsules, Enclosed, Instructions, QuantizedRows, Simd, dispatch, overlap_mask,
+    without_air,
 };
 use crate::mesh::Order;
 use crate::queries::Candidate;
@@ -145,15 +146,22 @@ impl BlockTests {
 
 /// Pushes the candidates in pairs of blocks of two trees.
 #[inline(always)]
-fn of_two<I: Simd>(i: I, boxes: [Blocks; 2], pairs: &[BlockPair], found: &mut Buffer<Candidate>) {
-    for &blocks in pairs {
-        push_overlapping(i, boxes, blocks, u64::MAX, found);
+fn of_two<I: Simd>(i: I, both: [Blocks; 2], pairs: &[BlockPair], found: &mut Buffer<Candidate>) {
+    if both.iter().all(|blocks| blocks.capsules.is_none()) {
+        for &blocks in pairs {
+            push_overlapping::<I, false>(i, both, blocks, u64::MAX, found);
+        }
+    } else {
+        for &blocks in pairs {
+            push_overlapping::<I, true>(i, both, blocks, u64::MAX, found);
+        }
     }
 }
 
 /// Pushes the pairs of triangles of two blocks whose boxes overlap and whose bit is set in a mask.
+/// With `AIR`, leaves out what capsules show to be apart.
 #[inline(always)]
-fn push_overlapping<I: Simd>(
+fn push_overlapping<I: Simd, const AIR: bool>(
     i: I,
     [of_a, of_b]: [Blocks; 2],
     [a, b]: BlockPair,
@@ -162,7 +170,10 @@ fn push_overlapping<I: Simd>(
 ) {
     let (first_a, first_b) = (of_a.firsts.of(a), of_b.firsts.of(b));
     let room = found.room();
-    let overlaps = meeting_mask(i, of_a.enclosed(a), of_b.enclosed(b), pairs);
+    let mut overlaps = overlap_mask(i, of_a.boxes.of(a), of_b.boxes.of(b)) & pairs;
+    if AIR {
+        overlaps = without_air(i, of_a.enclosed(a), of_b.enclosed(b), overlaps);
+    }
     room.push_bits(overlaps, |bit| {
         [first_a.plus(bit / 8), first_b.plus(bit % 8)]
     });
@@ -176,9 +187,14 @@ fn of_one<I: Simd>(i: I, body: OneBody, pairs: &[BlockPair], found: &mut Buffer<
         let (first_a, first_b) = (firsts.of(a), firsts.of(b));
         let candidate = |bit: u32| [first_a.plus(bit / 8), first_b.plus(bit % 8)];
         let room = found.room();
-        // Within one block, each pair of triangles once, and none with itself.
-        let asked = if a == b { STRICT_UPPER } else { u64::MAX };
-        let overlaps = meeting_mask(i, blocks.enclosed(a), blocks.enclosed(b), asked);
+        let mut overlaps = overlap_mask(i, blocks.boxes.of(a), blocks.boxes.of(b));
+        if a == b {
+            // Within one block, each pair of triangles once, and none with itself.
+            overlaps &= STRICT_UPPER;
+        }
+        if blocks.capsules.is_some() {
+            overlaps = without_air(i, blocks.enclosed(a), blocks.enclosed(b), overlaps);
+        }
         if let Some(neighbours) = body.neighbours
             && let Some(compared) = neighbours.compared(i, a, b)
         {
@@ -260,12 +276,20 @@ fn non_adjacent<I: Simd>(
 #[inline(always)]
 fn overlapping<I: Simd>(
     i: I,
-    boxes: Blocks,
+    blocks: Blocks,
     compared: &Buffer<MaskedPair>,
     found: &mut Buffer<Candidate>,
 ) {
-    for &MaskedPair { blocks, pairs } in compared.as_slice() {
-        push_overlapping(i, [boxes; 2], blocks, pairs, found);
+    for &MaskedPair {
+        blocks: pair,
+        pairs,
+    } in compared.as_slice()
+    {
+        if blocks.capsules.is_none() {
+            push_overlapping::<I, false>(i, [blocks; 2], pair, pairs, found);
+        } else {
+            push_overlapping::<I, true>(i, [blocks; 2], pair, pairs, found);
+        }
     }
 }
 

@@ -3,11 +3,12 @@
 //! Trees are of one degree, which is matched on once a batch (`boxes/lanes.rs`).
 
 use super::{BoxSet, Child, Neighbours, STRICT_UPPER, Tree, of_degree};
+use crate::geometry::Aabb;
 use crate::held::held;
 use crate::ids::{LeafId, NodeId, WideNodeId};
 use crate::kernels::{
-    BoxLanes, Buffer, EightCapsules, Enclosed, Instructions, Simd, dispatch, meeting_mask,
-    meeting_one,
+    BoxLanes, Buffer, EightCapsules, Enclosed, Instructions, Simd, dispatch, overlap_mask,
+    without_air,
 };
 
 /// Two nodes whose boxes are valid and overlap, or a node with itself.
@@ -39,7 +40,7 @@ impl<'t> BoxedTree<'t> {
     }
 }
 
-/// Boxes and capsules of the nodes of every wide node.
+/// Boxes and capsules of the nodes of every wide node of a tree.
 #[derive(Clone, Copy)]
 struct AllEnclosed<'t, const N: usize> {
     boxes: &'t [BoxLanes<N>],
@@ -47,19 +48,37 @@ struct AllEnclosed<'t, const N: usize> {
 }
 
 impl<'t, const N: usize> AllEnclosed<'t, N> {
-    /// Boxes and capsules of a node's wide node, and the node's lane.
-    #[inline(always)]
-    fn one(self, node: NodeId) -> (Enclosed<'t, N>, usize) {
-        let (wide_node, lane) = node.wide_node_and_lane();
-        (self.of(wide_node), lane % N)
-    }
-
-    #[inline(always)]
     fn of(self, wide_node: WideNodeId) -> Enclosed<'t, N> {
         Enclosed {
             boxes: &self.boxes[wide_node.index()],
             capsules: self.capsules.map(|all| &all[wide_node.index()]),
         }
+    }
+
+    /// Clears the bits of pairs that capsules show to be apart: of nodes of a wide node of this
+    /// tree and of one of another. Not inlined, so that trees without capsules lose nothing.
+    #[inline(never)]
+    fn without_air<I: Simd>(
+        self,
+        i: I,
+        wide_node: WideNodeId,
+        (other, of_other): (Self, WideNodeId),
+        pairs: u64,
+    ) -> u64 {
+        without_air(i, self.of(wide_node), other.of(of_other), pairs)
+    }
+
+    /// As [`without_air`](Self::without_air), of one node of this tree.
+    #[inline(never)]
+    fn without_air_of_one<I: Simd>(
+        self,
+        i: I,
+        node: NodeId,
+        other: (Self, WideNodeId),
+        lanes: u64,
+    ) -> u64 {
+        let (wide_node, lane) = node.wide_node_and_lane();
+        self.without_air(i, wide_node, other, lanes << (8 * lane)) >> (8 * lane)
     }
 }
 
@@ -120,10 +139,11 @@ pub(crate) fn expand(
             boxes: boxes[which],
             capsules: capsules[which],
         });
+        let air = capsules.iter().any(Option::is_some).then_some(&all);
         dispatch!(instructions, i => if is_itself {
-            expand_all::<_, _, true>(i, of, all, batch, left_out, found);
+            expand_all::<_, _, true>(i, of, boxes, air, batch, left_out, found);
         } else {
-            expand_all::<_, _, false>(i, of, all, batch, left_out, found);
+            expand_all::<_, _, false>(i, of, boxes, air, batch, left_out, found);
         });
     });
 }
@@ -133,7 +153,8 @@ pub(crate) fn expand(
 fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
     i: I,
     [a, b]: [&Tree; 2],
-    [all_a, all_b]: [AllEnclosed<N>; 2],
+    [boxes_a, boxes_b]: [&[BoxLanes<N>]; 2],
+    air: Option<&[AllEnclosed<N>; 2]>,
     batch: &[NodePair],
     left_out: Option<&Neighbours>,
     found: &mut Worklists,
@@ -160,13 +181,19 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
                 }
             }
             (Child::Leaf(_), Child::Inner(below)) => {
-                let mask = meeting_one(i, all_a.one(node_a), all_b.of(below));
+                let mut mask = boxes_b[below.index()].overlaps(&one_box(boxes_a, node_a));
+                if let Some([a, b]) = air {
+                    mask = a.without_air_of_one(i, node_a, (*b, below), mask);
+                }
                 nodes
                     .room()
                     .push_bits(mask, |lane| [node_a, NodeId::new(below, lane as usize)]);
             }
             (Child::Inner(below), Child::Leaf(_)) => {
-                let mask = meeting_one(i, all_b.one(node_b), all_a.of(below));
+                let mut mask = boxes_a[below.index()].overlaps(&one_box(boxes_b, node_b));
+                if let Some([a, b]) = air {
+                    mask = b.without_air_of_one(i, node_b, (*a, below), mask);
+                }
                 nodes
                     .room()
                     .push_bits(mask, |lane| [NodeId::new(below, lane as usize), node_b]);
@@ -176,21 +203,19 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
                     continue;
                 }
                 let (wide_a, wide_b) = (nodes_a.wide(below_a), nodes_b.wide(below_b));
-                let (of_a, of_b) = (all_a.of(below_a), all_b.of(below_b));
+                let (boxes_a, boxes_b) = (&boxes_a[below_a.index()], &boxes_b[below_b.index()]);
                 if let (Some(first_a), Some(first_b)) = (wide_a.first_leaf, wide_b.first_leaf) {
                     // Leaves side by side: their pairs need not go over the stack. Where some are
                     // left out all boxes are valid: then no leaf is to be refitted.
-                    let free = left_out.is_some();
-                    // Not by a closure: that would be compiled without the instructions.
-                    let left_out = match left_out {
-                        Some(known) => known.among_leaves(i, below_a, below_b),
-                        None => 0,
-                    };
+                    let mut left = u64::MAX;
+                    if let Some(known) = left_out {
+                        left = !known.among_leaves(i, below_a, below_b);
+                    }
                     let mut lanes = [0; 2];
                     let mut asked = u64::MAX;
                     if ITSELF && node_a == node_b {
                         let len = wide_a.len() as u32;
-                        let mut alone = DIAGONAL & !left_out & u64::MAX >> (64 - 8 * len);
+                        let mut alone = DIAGONAL & left & u64::MAX >> (64 - 8 * len);
                         while alone != 0 {
                             let lane = alone.trailing_zeros() / 8;
                             leaves.push([first_a.plus(lane); 2]);
@@ -201,11 +226,14 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
                         asked = STRICT_UPPER;
                     }
                     let room = leaves.room();
-                    let mask = meeting_mask(i, of_a, of_b, asked);
+                    let mask = overlap_mask(i, boxes_a, boxes_b) & asked;
                     *node_pairs += u64::from(mask.count_ones());
-                    let mask = mask & !left_out;
+                    let mut mask = mask & left;
+                    if let Some([a, b]) = air {
+                        mask = a.without_air(i, below_a, (*b, below_b), mask);
+                    }
                     room.push_bits(mask, |bit| [first_a.plus(bit / 8), first_b.plus(bit % 8)]);
-                    if free {
+                    if left_out.is_some() {
                         continue;
                     }
                     lanes[0] |= rows_of(mask);
@@ -225,16 +253,22 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
                     asked = STRICT_UPPER;
                 }
                 let room = nodes.room();
-                let mask = meeting_mask(i, of_a, of_b, asked);
-                room.push_bits(mask, |bit| {
-                    [
-                        NodeId::new(below_a, bit as usize / 8),
-                        NodeId::new(below_b, bit as usize % 8),
-                    ]
-                });
+                let mut mask = overlap_mask(i, boxes_a, boxes_b) & asked;
+                if let Some([a, b]) = air {
+                    mask = a.without_air(i, below_a, (*b, below_b), mask);
+                }
+                let node = |below, lane| NodeId::new(below, lane as usize);
+                room.push_bits(mask, |bit| [node(below_a, bit / 8), node(below_b, bit % 8)]);
             }
         }
     }
+}
+
+/// Box of one node.
+#[inline(always)]
+fn one_box<const N: usize>(boxes: &[BoxLanes<N>], node: NodeId) -> Aabb {
+    let (wide_node, lane) = node.wide_node_and_lane();
+    boxes[wide_node.index()].get(lane % N)
 }
 
 /// Set of the i in a mask of pairs (i, j) of eight lanes, bit 8 i + j.

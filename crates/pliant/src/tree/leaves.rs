@@ -82,12 +82,6 @@ impl Leaves {
         start as usize..end as usize
     }
 
-    /// Returns the triangles of all leaves, as places in tree order.
-    pub(super) fn all_triangles(&self) -> Range<usize> {
-        let end = self.runs.iter().map(|leaf| leaf.end).max();
-        self.first.index()..end.map_or(self.first.index(), |end| end as usize)
-    }
-
     /// Returns the first triangle of a leaf.
     #[inline]
     pub(crate) fn first_triangle(&self, leaf: LeafId) -> TreeTriangle {

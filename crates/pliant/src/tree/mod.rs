@@ -53,6 +53,8 @@ pub(crate) struct Tree {
     neighbours: Option<Box<Neighbours>>,
     /// Most children of a node: 2, 4 or 8.
     degree: usize,
+    /// Whether many of the triangles are long and thin.
+    pub(crate) has_thin: bool,
     /// Level of the deepest leaf, where the root's is 0: the n of the paper's n / 2.
     pub(crate) depth: u32,
 }
@@ -85,11 +87,6 @@ impl Tree {
     /// Returns how many nodes there are, leaves included: the boxes of a complete update.
     pub(crate) fn node_count(&self) -> usize {
         self.vertices.len()
-    }
-
-    /// Returns the triangles of the whole tree, as places in tree order.
-    pub(crate) fn triangles(&self) -> std::ops::Range<usize> {
-        self.leaves.all_triangles()
     }
 
     /// Whether the table of neighbours is made.
@@ -213,6 +210,7 @@ impl TreeBuilder {
             leaves,
             neighbours: None,
             degree: plan.degree,
+            has_thin: plan.has_thin,
             depth: plan.nodes.last().map_or(0, |deepest| deepest.level),
         };
         let vertices = VertexSetsBuilder::new(plan, order, first_vertex);

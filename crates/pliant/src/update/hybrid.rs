@@ -42,7 +42,6 @@ impl Refit<'_> {
         // The root is the last box that is made, and the first that any strategy needs. So it is
         // valid if levels were refitted ahead.
         one.boxes.expect(one.source.version());
-        one.boxes.measure(one.tree, one.source.shape());
         let depth = one.tree.depth;
         let level = |much| level_ahead(self.update, depth, much);
         if one.boxes.is_valid(root) {

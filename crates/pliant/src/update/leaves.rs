@@ -62,11 +62,18 @@ impl Refit<'_> {
                     return;
                 }
                 let words = start..words.end.min(start + UNINTERRUPTED);
-                of_source!(one.source, source => dispatch!(self.instructions, i => {
-                    for leaf in reached.of(words).map(LeafId) {
-                        job.refit(i, leaf, leaves, source);
+                of_source!(one.source, source => {
+                    if !job.boxes.capsules.is_empty() {
+                        for leaf in reached.of(words.clone()).map(LeafId) {
+                            job.make_capsules(leaf, leaves, source);
+                        }
                     }
-                }));
+                    dispatch!(self.instructions, i => {
+                        for leaf in reached.of(words).map(LeafId) {
+                            job.refit(i, leaf, leaves, source);
+                        }
+                    });
+                });
             }
         };
         let mut made = 0;
@@ -116,15 +123,22 @@ impl LeafRun<'_> {
         let triangles = &source.shape().triangles[triangles];
         self.leaves += 1;
         self.triangles += triangles.len();
-        let place = block.index() - self.boxes.first_block;
-        let blocks = &mut self.boxes.blocks[place..];
+        let blocks = &mut self.boxes.blocks[block.index() - self.boxes.first_block..];
         for (triangles, block) in triangles.chunks(BLOCK_LANES).zip(blocks) {
             refit_block(i, triangles, block, source);
         }
-        if let Some(capsules) = self.boxes.capsules.get_mut(place..) {
-            for (triangles, capsules) in triangles.chunks(BLOCK_LANES).zip(capsules) {
-                make_of_block(capsules, triangles, source);
-            }
+    }
+
+    /// Makes the capsules of the triangles in one leaf, unless its boxes are valid.
+    fn make_capsules<B: BoxSource>(&mut self, leaf: LeafId, leaves: &Leaves, source: &B) {
+        if self.boxes.stamps[leaf.index() - self.boxes.first_leaf] == self.stamp {
+            return;
+        }
+        let (triangles, block) = leaves.triangles_and_block(leaf);
+        let triangles = &source.shape().triangles[triangles];
+        let capsules = &mut self.boxes.capsules[block.index() - self.boxes.first_block..];
+        for (triangles, capsules) in triangles.chunks(BLOCK_LANES).zip(capsules) {
+            make_of_block(capsules, triangles, source);
         }
     }
 }

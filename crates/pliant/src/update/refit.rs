@@ -32,6 +32,9 @@ pub(super) trait Below<const N: usize>: Sized + Send {
         tree: &Tree,
         source: &B,
     ) -> usize;
+
+    /// Makes the capsules that belong to a wide node, beside those of its nodes.
+    fn make_capsules<B: BoxSource>(&mut self, _: WideNodeId, _: &Tree, _: &B) {}
 }
 
 /// Job: a run of wide nodes, the part of a box set that holds their boxes, and a maker.
@@ -114,11 +117,16 @@ pub(super) fn refit_all<const N: usize, S: Coordinate, F: Below<N>>(
             if executor.is_interrupted() {
                 return;
             }
-            of_source!(source, source => dispatch!(refit.instructions, i => {
-                for &wide_node in run {
-                    job.refit(i, wide_node, tree, source);
+            of_source!(source, source => {
+                dispatch!(refit.instructions, i => {
+                    for &wide_node in run {
+                        job.refit(i, wide_node, tree, source);
+                    }
+                });
+                if !job.nodes.capsules.is_empty() {
+                    job.make_capsules(run, tree, source);
                 }
-            }));
+            });
         }
     };
     let mut made = 0;
@@ -155,6 +163,15 @@ impl<const N: usize, F: Below<N>> NodeRun<'_, N, F> {
         jobs
     }
 
+    /// Makes the capsules beside the boxes.
+    fn make_capsules<B: BoxSource>(&mut self, run: &[WideNodeId], tree: &Tree, source: &B) {
+        for &wide_node in run {
+            let place = wide_node.index() - self.nodes.first;
+            make_of_nodes(&mut self.nodes.capsules[place], tree, wide_node, source);
+            self.from.make_capsules(wide_node, tree, source);
+        }
+    }
+
     #[inline(always)]
     fn refit<I: Simd, B: BoxSource>(
         &mut self,
@@ -167,9 +184,6 @@ impl<const N: usize, F: Below<N>> NodeRun<'_, N, F> {
         let lanes = &mut self.nodes.boxes[place];
         self.made += self.from.make(i, wide_node, lanes, tree, source);
         self.nodes.stamps[place] = self.stamp;
-        if let Some(capsules) = self.nodes.capsules.get_mut(place) {
-            make_of_nodes(capsules, tree, wide_node, source);
-        }
     }
 }
 

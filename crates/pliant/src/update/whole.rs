@@ -117,15 +117,22 @@ impl<const N: usize> Below<N> for Triangles<'_> {
             boxes[lane] = refit_block(i, corners, &mut blocks[lane], source);
             quantized[lane] = quantize(i, &blocks[lane], self.units);
             stamps[lane] = self.stamp;
-            if let Some(capsules) = self.leaves.capsules.get_mut(place + lane) {
-                make_of_block(capsules, corners, source);
-            }
         }
         extent::store(boxes, count, lanes);
         for (quantized, longest) in quantized.iter_mut().zip(lanes.longest_sides()) {
             quantized.set_fits(longest, self.units);
         }
         count
+    }
+
+    fn make_capsules<B: BoxSource>(&mut self, wide_node: WideNodeId, tree: &Tree, source: &B) {
+        let first = first_leaf(tree, wide_node);
+        let place = first.index() - self.leaves.first_leaf;
+        for lane in 0..tree.wide_node(wide_node).len() {
+            let triangles = tree.leaves.triangles(first.plus(lane as u32));
+            let corners = &source.shape().triangles[triangles];
+            make_of_block(&mut self.leaves.capsules[place + lane], corners, source);
+        }
     }
 }
 

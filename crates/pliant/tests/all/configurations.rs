@@ -6,9 +6,10 @@
 
 use crate::common::{
     CHOICES, Motion, TrianglesOf, covering, covering_configurations, covers_every_pair,
-    every_configuration, share, sheet, thin, widened, world_of,
+    every_configuration, share, sheet, widened, world_of,
 };
 use pliant::{ErrorKind, Options, Pair, Scalar, Selection, World, reference};
+use pliant_scenes::thin;
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
@@ -259,23 +260,21 @@ fn cloth_f64() {
 
 /// Fans, strips and tubes of long thin triangles, and a sheet of good ones, turned in every frame.
 fn thin_bodies() -> Vec<Motion> {
-    let (triangles, flat) = sheet(9);
-    let centred = flat
-        .iter()
-        .map(|&[x, y, z]| [4.0 * x - 2.0, 4.0 * y - 2.0, z]);
     let bodies = [
         thin::fan(60),
-        thin::strip(60),
+        thin::strip(120),
         thin::tube(60),
-        (triangles, centred.collect()),
+        thin::waves(8),
     ];
-    let moved = |(number, (triangles, positions)): (usize, (_, Vec<[f32; 3]>))| Motion {
-        triangles,
-        frames: (0..3)
-            .map(|frame| thin::turned(&positions, 0.4 + number as f32 * 0.7 + frame as f32 * 0.3))
-            .collect(),
+    let moved = |(number, (triangles, positions)): (u32, thin::Mesh)| {
+        let angle = |frame| 0.4 + f64::from(number) * 0.7 + f64::from(frame) * 0.3;
+        let frames = (0..3).map(|frame| thin::turned(&positions, angle(frame)));
+        Motion {
+            triangles,
+            frames: frames.collect(),
+        }
     };
-    bodies.into_iter().enumerate().map(moved).collect()
+    (0..).zip(bodies).map(moved).collect()
 }
 
 #[test]

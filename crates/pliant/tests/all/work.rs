@@ -1,8 +1,8 @@
 //! Counted work, not time: how many boxes each update makes, which is the paper's point.
 
-use crate::common::{TrianglesOf, sheet, thin};
+use crate::common::TrianglesOf;
 use pliant::{Degree, Options, Partition, Scalar, Selection, Statistics, Update, World};
-use pliant_scenes::Scene;
+use pliant_scenes::{Scene, thin};
 use std::num::NonZeroU32;
 
 /// Work of the first 50 steps of the two spheres, and the number of boxes in one complete update.
@@ -93,18 +93,15 @@ fn levels_at_once_make_the_same_pairs_with_other_boxes() {
 /// Long thin triangles, turned against the axes, whose boxes hold mostly air.
 #[test]
 fn thin_triangles_have_few_candidates() {
-    let count = 2_000;
-    let bodies = [thin::fan(count), thin::strip(count), thin::tube(count)];
-    let sheet = sheet(101);
+    let bodies = [thin::fan(2_000), thin::strip(4_000), thin::tube(2_000)];
+    let (good, waves) = thin::waves(100);
     for (number, (triangles, positions)) in bodies.iter().enumerate() {
         let mut world = World::<f32>::new();
         let body = world.add(triangles, positions).unwrap();
-        let centred: Vec<_> = sheet.1.iter().map(|p| p.map(|x| 2.0 * x - 1.0)).collect();
-        let flat = world.add(&sheet.0, &centred).unwrap();
+        let flat = world.add(&good, &waves).unwrap();
         let other = world.add(triangles, positions).unwrap();
         for angle in [0.4, 1.3, 2.9] {
-            for (body, angle) in [(body, angle), (flat, 0.0), (other, -2.0 * angle)] {
-                let positions = if body == flat { &centred } else { positions };
+            for (body, angle) in [(body, angle), (other, -2.0 * angle)] {
                 let turned = thin::turned(positions, angle);
                 world.set_positions(body, &turned).unwrap();
             }

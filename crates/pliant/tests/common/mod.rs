@@ -3,7 +3,6 @@
 #![allow(dead_code, reason = "each test uses its part")]
 
 pub(crate) mod kinds;
-pub(crate) mod thin;
 
 use pliant::{
     BodyId, BroadPhase, Degree, Options, Pair, Partition, Scalar, Selection, Update, World,

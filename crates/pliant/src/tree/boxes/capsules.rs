@@ -1,20 +1,16 @@
-//! Capsules beside the boxes of nodes and triangles, for a body of long thin triangles.
+//! Capsules beside the boxes of nodes and triangles, for a tree of long thin triangles.
 //!
-//! Boxes of long thin triangles hold mostly air, whatever tree is over them. So a body that has
-//! many has a capsule beside each box of few vertices. They are made with the boxes, and valid when
-//! these are. Whether it has many is decided once, from its first shape; turning changes nothing.
+//! Boxes of long thin triangles hold mostly air, whatever tree is over them. So where there are
+//! many (`build::thin`), each box over few vertices has a capsule beside it. They are made with the
+//! boxes, and valid when these are.
 
 use super::BoxSource;
-use crate::geometry::{Capsule, Real, Shape};
+use crate::geometry::Capsule;
 use crate::held::held;
 use crate::ids::{TreeVertex, WideNodeId};
-use crate::kernels::{Coordinate, EightCapsules};
+use crate::kernels::EightCapsules;
 use crate::tree::{BLOCK_LANES, Tree};
 
-/// Square of the longest edge over twice the area from which a triangle is long and thin.
-const THIN: f64 = 16.0;
-/// Part of all squares of longest edges that long thin triangles need to have.
-const MANY: f64 = 0.1;
 /// Most vertices of a node that has a capsule.
 const MOST_VERTICES: usize = 512;
 
@@ -26,35 +22,13 @@ pub(crate) struct Capsules {
 }
 
 impl Capsules {
-    /// Allocates capsules for a tree whose triangles have this shape, if many of them are thin.
-    pub(super) fn new<S: Coordinate>(tree: &Tree, shape: &Shape<S>) -> Option<Box<Self>> {
-        has_many_thin(tree, shape).then(|| {
-            Box::new(Self {
-                nodes: vec![EightCapsules::EVERYTHING; tree.wide_nodes.len()],
-                blocks: vec![EightCapsules::EVERYTHING; tree.leaves.block_count()],
-            })
-        })
-    }
-}
-
-/// Whether long thin triangles make up much of the boxes.
-fn has_many_thin<S: Coordinate>(tree: &Tree, shape: &Shape<S>) -> bool {
-    let (mut all, mut thin) = (0.0, 0.0);
-    for &corners in &shape.triangles[tree.triangles()] {
-        let [p, q, r] = corners.map(|vertex| shape.positions.get(vertex).map(Real::to_f64));
-        let way = |p: [f64; 3], q: [f64; 3]| [q[0] - p[0], q[1] - p[1], q[2] - p[2]];
-        let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-        let (a, b) = (way(p, q), way(p, r));
-        let (aa, ab, bb) = (dot(a, a), dot(a, b), dot(b, b));
-        let longest = aa.max(bb).max(aa - 2.0 * ab + bb);
-        // Twice the area, squared, with rounding that does not matter here.
-        let square = aa * bb - ab * ab;
-        all += longest;
-        if longest * longest > THIN * THIN * square {
-            thin += longest;
+    /// Allocates capsules for a tree.
+    pub(super) fn new(tree: &Tree) -> Self {
+        Self {
+            nodes: vec![EightCapsules::EVERYTHING; tree.wide_nodes.len()],
+            blocks: vec![EightCapsules::EVERYTHING; tree.leaves.block_count()],
         }
     }
-    thin > MANY * all
 }
 
 /// Makes the capsules of the triangles of a block.

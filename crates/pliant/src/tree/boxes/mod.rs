@@ -11,10 +11,9 @@ mod lanes;
 mod source;
 
 use super::Tree;
-use crate::geometry::Shape;
 use crate::held::{self, held};
 use crate::ids::{BlockId, LeafId, WideNodeId};
-use crate::kernels::{BoxLanes, Coordinate, EightBoxes, EightCapsules, QuantizedLanes};
+use crate::kernels::{BoxLanes, EightBoxes, EightCapsules, QuantizedLanes};
 use capsules::Capsules;
 pub(crate) use capsules::{capsule_of_node, make_of_block, make_of_nodes};
 pub(crate) use lanes::{NodeLanes, of_degree};
@@ -48,9 +47,8 @@ pub(crate) struct BoxSet {
     /// Quantized boxes of triangles, for a body that meets itself and whose leaves are blocks; else
     /// none.
     quantized: Quantized,
-    /// Capsules beside the boxes, for a body of long thin triangles; decided by its first shape.
+    /// Capsules beside the boxes, for a tree of long thin triangles.
     capsules: Option<Box<Capsules>>,
-    is_measured: bool,
 }
 
 /// Quantized boxes of the triangles in leaves that are blocks.
@@ -119,16 +117,7 @@ impl BoxSet {
             complete_leaves: NEVER,
             reached: 0,
             quantized: Quantized::default(),
-            capsules: None,
-            is_measured: false,
-        }
-    }
-
-    /// Decides by the first shape whether boxes have capsules beside them.
-    pub(crate) fn measure<S: Coordinate>(&mut self, tree: &Tree, shape: &Shape<S>) {
-        if !self.is_measured {
-            self.is_measured = true;
-            self.capsules = Capsules::new(tree, shape);
+            capsules: tree.has_thin.then(|| Box::new(Capsules::new(tree))),
         }
     }
 

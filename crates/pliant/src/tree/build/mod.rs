@@ -9,6 +9,7 @@
 mod balanced;
 mod connectivity;
 mod initial_shape;
+mod thin;
 
 use crate::held::{self, Held, held};
 use crate::threads::Budget;
@@ -16,6 +17,7 @@ pub(crate) use balanced::Balanced;
 pub(crate) use connectivity::Connectivity;
 pub(crate) use initial_shape::{CutAt, InitialShape, midpoint};
 use std::ops::Range;
+pub(crate) use thin::has_many_thin;
 
 /// Division of triangles: the order of triangles in a tree to be, and its nodes.
 #[derive(Debug)]
@@ -29,6 +31,8 @@ pub(crate) struct Plan {
     pub(crate) leaf_size: u32,
     /// Most children of a node.
     pub(crate) degree: usize,
+    /// Whether many of the triangles are long and thin.
+    pub(crate) has_thin: bool,
 }
 
 impl Plan {
@@ -120,6 +124,7 @@ impl<R: Split> Planner<R> {
                 }],
                 leaf_size,
                 degree,
+                has_thin: false,
             },
             next: 0,
             is_begun: false,

@@ -29,7 +29,7 @@ pub use environment::{Precision, denormals_are_kept, is_in_range};
 pub use gap::are_boxes_within;
 pub use intersection::{End, Feature, Intersection, intersection};
 use lattice::on_lattice;
-use orientation::{Filtered, Orientation};
+use orientation::{Certain, Filtered, Orientation};
 pub use point::{Point, Triangle};
 use std::cmp::Ordering;
 
@@ -86,9 +86,9 @@ pub fn side_of_plane([a, b, c]: [[f64; 3]; 3], point: [f64; 3]) -> Ordering {
 /// point that it is.
 ///
 /// Adds one to `exact` if floating point alone did not decide. Exact, for coordinates that are [in
-/// range](is_in_range). Integers of 192 bits are asked first, because exact contact mostly has room
-/// in them, then floating point, then expansions. Cost: some hundred nanoseconds. The formulation
-/// is this crate's own, after Guigue and Devillers (2003).
+/// range](is_in_range). Where floating point is not certain, integers of 192 bits are asked,
+/// because exact contact mostly has room in them, then expansions. Cost: some hundred nanoseconds.
+/// The formulation is this crate's own, after Guigue and Devillers (2003).
 ///
 /// ```
 /// use pliant_exact::{Precision, intersect};
@@ -100,16 +100,18 @@ pub fn side_of_plane([a, b, c]: [[f64; 3]; 3], point: [f64; 3]) -> Ordering {
 /// ```
 #[inline]
 pub fn intersect(precision: Precision, a: &Triangle, b: &Triangle, exact: &mut u64) -> bool {
+    let mut certain = Certain::new(precision);
+    let intersect = triangles::triangles_intersect(a, b, &mut certain);
+    if certain.are_all() {
+        return intersect;
+    }
+    *exact += 1;
     if let Some(intersect) = on_lattice!(precision, a, b, |a, b, signs| {
         triangles::triangles_intersect(&a, &b, signs)
     }) {
-        *exact += 1;
         return intersect;
     }
-    let mut filtered = Filtered::new(precision);
-    let intersect = triangles::triangles_intersect(a, b, &mut filtered);
-    *exact += u64::from(filtered.was_uncertain());
-    intersect
+    triangles::triangles_intersect(a, b, &mut Filtered::new(precision))
 }
 
 /// How two triangles intersect that are known to; as exact as [`intersect`], and about as fast. Of

@@ -23,6 +23,12 @@ pub(super) trait Orientation {
         [0, 1, 2].map(|i| self.sign(a, b, c, &points[i]))
     }
 
+    /// Whether signs so far may be wrong, so that no more need be asked for.
+    #[inline]
+    fn has_given_up(&self) -> bool {
+        false
+    }
+
     /// The side of the line through a, b on which c lies, in the plane of two coordinates; exact
     /// whatever the source is.
     #[inline]
@@ -157,23 +163,32 @@ impl<'p> Plane<'p> {
 }
 
 impl Filtered {
-    /// The side of the plane on which a point lies, if the filter is certain of it.
+    /// The side of the plane on which a point lies, if it is certain: by the filter, or because two
+    /// of the four points are one.
     #[inline]
-    fn certain_side(&self, plane: &Plane, point: &Point) -> Option<Sign> {
+    fn certain_side(&self, plane: &Plane, [a, b, c]: [&Point; 3], point: &Point) -> Option<Sign> {
         let (determinant, magnitude) = plane.height(point);
         let t = minus(point, plane.origin);
         let reach = t[0].abs() + t[1].abs() + t[2].abs() + 1.0;
         if determinant.abs() > RELATIVE_ERROR * magnitude + self.underflow * reach {
             return Some(sign_of(determinant));
         }
-        None
+        let are_two_one = are_one(a, b) || are_one(b, c) || are_one(c, a);
+        (are_two_one || [a, b, c].into_iter().any(|it| are_one(it, point))).then_some(0)
     }
+}
+
+/// Whether two points have the same bits: a thread that flushes subnormal numbers compares no
+/// others.
+#[inline]
+fn are_one(p: &Point, q: &Point) -> bool {
+    p.map(f64::to_bits) == q.map(f64::to_bits)
 }
 
 impl Orientation for Filtered {
     #[inline]
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
-        let certain = self.certain_side(&Plane::of(a, b, c), d);
+        let certain = self.certain_side(&Plane::of(a, b, c), [a, b, c], d);
         certain.unwrap_or_else(|| {
             self.uncertain = true;
             Exact.sign(a, b, c, d)
@@ -184,7 +199,7 @@ impl Orientation for Filtered {
     fn plane_signs(&mut self, [a, b, c]: &Triangle, points: &Triangle) -> [Sign; 3] {
         let plane = Plane::of(a, b, c);
         [0, 1, 2].map(|i| {
-            let certain = self.certain_side(&plane, &points[i]);
+            let certain = self.certain_side(&plane, [a, b, c], &points[i]);
             certain.unwrap_or_else(|| {
                 self.uncertain = true;
                 Exact.sign(a, b, c, &points[i])
@@ -208,8 +223,9 @@ impl Certain {
     }
 
     #[inline]
-    fn side(&mut self, plane: &Plane, point: &Point) -> Sign {
-        self.0.certain_side(plane, point).unwrap_or_else(|| {
+    fn side(&mut self, plane: &Plane, corners: [&Point; 3], point: &Point) -> Sign {
+        let certain = self.0.certain_side(plane, corners, point);
+        certain.unwrap_or_else(|| {
             self.0.uncertain = true;
             0
         })
@@ -219,13 +235,25 @@ impl Certain {
 impl Orientation for Certain {
     #[inline]
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
-        self.side(&Plane::of(a, b, c), d)
+        self.side(&Plane::of(a, b, c), [a, b, c], d)
     }
 
     #[inline]
     fn plane_signs(&mut self, [a, b, c]: &Triangle, points: &Triangle) -> [Sign; 3] {
         let plane = Plane::of(a, b, c);
-        [0, 1, 2].map(|i| self.side(&plane, &points[i]))
+        let mut signs = [0; 3];
+        for (sign, point) in signs.iter_mut().zip(points) {
+            *sign = self.side(&plane, [a, b, c], point);
+            if self.has_given_up() {
+                break;
+            }
+        }
+        signs
+    }
+
+    #[inline]
+    fn has_given_up(&self) -> bool {
+        !self.are_all()
     }
 }
 

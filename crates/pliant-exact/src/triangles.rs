@@ -10,7 +10,7 @@
 use super::orientation::Orientation;
 use super::point::{PLANES, Point2, Sign, Triangle, projected};
 
-/// Whether two closed triangles have a point in common.
+/// Whether two closed triangles have a point in common; any answer if the source of signs gives up.
 ///
 /// Let A = a0 a1 a2 and B = b0 b1 b2 be closed triangles. Take the orientation of each corner of B
 /// against A (three plane signs) and of each corner of A against B (three). Take it of each edge of
@@ -18,10 +18,10 @@ use super::point::{PLANES, Point2, Sign, Triangle, projected};
 ///
 /// 1. All plane signs of one side are positive, or all negative: **no**; that triangle lies on one
 ///    side of the other's plane.
-/// 2. All six are zero. If an edge sign is not, the triangles are two skew segments: **no**. Else
-///    all six corners lie in one plane. The answer is the **and** of closed two-dimensional tests
-///    in the three axis projections: what meets, meets in all of them. What does not is kept apart
-///    by one of them at least. No axis has to be chosen.
+/// 2. All six are zero. If a triangle has an area, all corners lie in its plane. The answer is that
+///    of a closed two-dimensional test in an axis projection in which it has one. Else there are
+///    two segments or points. If an edge sign is not zero they are skew: **no**. Else what meets,
+///    meets in all three projections, and what does not is kept apart by one of them.
 /// 3. Else the answer is **yes** if and only if two things hold for some edge of either triangle.
 ///    Its plane signs are not both zero and do not agree. Its three edge signs with the other
 ///    triangle are all >= 0 or all <= 0. It crosses or touches the plane, and its line passes
@@ -34,15 +34,15 @@ pub(super) fn triangles_intersect(
     orientation: &mut impl Orientation,
 ) -> bool {
     let of_b = orientation.plane_signs(a, b);
-    if one_side(of_b) {
+    if one_side(of_b) || orientation.has_given_up() {
         return false;
     }
     let of_a = orientation.plane_signs(b, a);
-    if one_side(of_a) {
+    if one_side(of_a) || orientation.has_given_up() {
         return false;
     }
     if of_a == [0; 3] && of_b == [0; 3] {
-        return in_one_plane(a, b, orientation) && intersect_in_one_plane(a, b, orientation);
+        return intersect_in_one_plane(a, b, orientation);
     }
     // Edge signs are wanted twice, once for either triangle, and often not at all.
     let mut edge_signs = [[None; 3]; 3];
@@ -73,17 +73,23 @@ fn agree(signs: [Sign; 3]) -> bool {
     signs.iter().all(|&sign| sign >= 0) || signs.iter().all(|&sign| sign <= 0)
 }
 
-/// Whether triangles whose six plane signs are zero lie in one plane: false only for two skew
-/// segments.
-fn in_one_plane(a: &Triangle, b: &Triangle, orientation: &mut impl Orientation) -> bool {
+/// Whether two triangles whose six plane signs are zero have a point in common.
+///
+/// If one of them has an area both lie in its plane, and so a projection in which it has one keeps
+/// all points apart. Else both are segments or points, perhaps skew.
+fn intersect_in_one_plane(a: &Triangle, b: &Triangle, orientation: &mut impl Orientation) -> bool {
+    let in_plane = |plane| [a, b].map(|triangle| projected(triangle, plane));
+    for plane in PLANES {
+        let both = in_plane(plane);
+        let mut has_area = |&[p, q, r]: &[Point2; 3]| orientation.sign_in_plane(p, q, r) != 0;
+        if has_area(&both[0]) || has_area(&both[1]) {
+            return intersect_2d(&both[0], &both[1], orientation);
+        }
+    }
     (0..3).all(|i| {
         (0..3).all(|j| orientation.sign(&a[i], &a[(i + 1) % 3], &b[j], &b[(j + 1) % 3]) == 0)
-    })
-}
-
-fn intersect_in_one_plane(a: &Triangle, b: &Triangle, orientation: &mut impl Orientation) -> bool {
-    PLANES.into_iter().all(|plane| {
-        let [a, b] = [a, b].map(|triangle| projected(triangle, plane));
+    }) && PLANES.into_iter().all(|plane| {
+        let [a, b] = in_plane(plane);
         intersect_2d(&a, &b, orientation)
     })
 }

@@ -49,7 +49,7 @@ pub fn rings(rings: u32) -> Mesh {
         let radius = f64::from(ring) / f64::from(rings);
         positions.extend((0..6 * ring).map(|place| on_circle(place, 6 * ring, radius, 0.0)));
         for place in 0..6 * ring {
-            // Sixths of a ring have one edge more than those of the ring within.
+            // A sixth of a ring has one edge more than a sixth of the ring within.
             let within = place / ring * (ring - 1) + place % ring;
             let [a, b] = [vertex(ring, place), vertex(ring, place + 1)];
             let c = vertex(ring - 1, within);

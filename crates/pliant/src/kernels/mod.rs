@@ -14,6 +14,7 @@
 //! | `gather` | positions into tree order, and the bounds of every row of points |
 //! | `extent` | bounding boxes of points and of triangles |
 //! | `boxes` | boxes in structure-of-arrays order, and which of them overlap |
+//! | `capsules` | capsules of what is long and thin, and which are surely apart |
 //! | `quantized` | boxes in bytes, and which of them are surely apart |
 //! | `signs` | orientation signs of eight candidates, where rounding cannot change them |
 //! | `apart` | separating directions of elements in motion |

@@ -33,7 +33,7 @@ pub(super) trait Below<const N: usize>: Sized + Send {
         source: &B,
     ) -> usize;
 
-    /// Makes the capsules that belong to a wide node, beside those of its nodes.
+    /// Makes the capsules of triangles below a wide node, whose nodes have theirs.
     fn make_capsules<B: BoxSource>(&mut self, _: WideNodeId, _: &Tree, _: &B) {}
 }
 

@@ -11,7 +11,7 @@
 //! | `Extent` | one box in two registers, before it is stored in a lane | `kernels/extent.rs` |
 //! | `PaddedBox` | one box, padded to registers of four | `kernels/gaps.rs` |
 //! | `BoxLanes<N>` | N boxes as structure of arrays; `EightBoxes` for N = 8 | `kernels/boxes.rs` |
-//! | `Capsule` | all points near a segment; `EightCapsules`, side by side | `capsule.rs`, `kernels/capsules.rs` |
+//! | `Capsule` | all points near a segment | here; side by side in `kernels/capsules.rs` |
 //! | `Capsules` | beside the boxes of a tree of long thin triangles | `tree/boxes/capsules.rs` |
 //! | `QuantizedLanes` | eight boxes in bytes, modulo 256 | `kernels/quantized.rs` |
 //! | `NodeLanes` | boxes of all nodes of a tree: a list of `BoxLanes` | `tree/boxes/lanes.rs` |

@@ -163,8 +163,8 @@ impl<'p> Plane<'p> {
 }
 
 impl Filtered {
-    /// The side of the plane on which a point lies, if it is certain: by the filter, or as two of
-    /// the four points are one.
+    /// The side of the plane on which a point lies, if the filter is certain of it or two of the
+    /// four points are one.
     #[inline]
     fn certain_side(&self, plane: &Plane, [a, b, c]: [&Point; 3], point: &Point) -> Option<Sign> {
         let (determinant, magnitude) = plane.height(point);

@@ -240,6 +240,8 @@ mod tests {
                     triangles_intersect(&p, &q, signs)
                 });
                 assert_eq!(found.unwrap_or(expected), expected, "{p:?} {q:?}");
+                let found = crate::intersect(crate::Precision::Double, &p, &q, &mut 0);
+                assert_eq!(found, expected, "{p:?} {q:?}");
             }
         }
         expected

@@ -88,7 +88,7 @@ pub(super) const DEGENERATE: Title = Title {
 
 pub(super) const SHAPES: Title = Title {
     name: "shapes",
-    about: "long thin triangles: fans, strips and tubes that turn, beside good triangles",
+    about: "long thin triangles: fans, strips and tubes, beside good ones",
     with_peers: false,
 };
 

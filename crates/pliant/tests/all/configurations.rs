@@ -261,7 +261,7 @@ fn cloth_f64() {
 /// Fans, strips and tubes of long thin triangles, and a sheet of good ones, turned in every frame.
 fn thin_bodies() -> Vec<Motion> {
     let bodies = [
-        thin::fan(60),
+        thin::fan(120),
         thin::strip(120),
         thin::tube(60),
         thin::waves(8),

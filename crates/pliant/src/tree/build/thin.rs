@@ -3,7 +3,7 @@
 use crate::geometry::Real;
 
 /// Square of the longest edge over twice the area from which a triangle is long and thin.
-const THIN: f64 = 16.0;
+const THIN: f64 = 32.0;
 /// Part of all squares of longest edges that long thin triangles need to have.
 const MANY: f64 = 0.1;
 

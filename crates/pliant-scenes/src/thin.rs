@@ -1,8 +1,8 @@
-//! Meshes of long thin triangles, and one of good triangles: shapes that are hard for boxes.
+//! Meshes of long thin triangles, and two of good ones to compare them with.
 //!
 //! Each is two units wide, round the origin. As CAD makes them: lids of cylinders as fans, ribbons
 //! as strips, sides of cylinders as tubes. Turned against the axes, the box of a needle is mostly
-//! air.
+//! empty.
 
 use crate::trig::{cos, sin};
 use std::f64::consts::TAU;

@@ -60,7 +60,7 @@ fn turning(name: &str, (triangles, positions): thin::Mesh, side: u32, steps: u32
 
 fn plan(form: Form) -> Vec<Planned> {
     let (count, side, steps) = if form == Form::Full {
-        (12_000, 300, 10)
+        (12_000, 300, 4)
     } else {
         (120, 12, 2)
     };

@@ -18,6 +18,7 @@ use pliant::{Curves, Pair};
 use pliant_check::{Check, Found, with_world};
 use pliant_io::{Precision, shown};
 use std::io::{self, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Output files of one check.
@@ -56,6 +57,8 @@ struct Mesh {
     triangles: Vec<Cell>,
     /// Curves, or the sides of curves.
     lines: Vec<Cell>,
+    /// Indices of the points of all cells.
+    corners: Vec<i64>,
 }
 
 /// Cell of a file.
@@ -65,8 +68,8 @@ struct Cell {
     partners: u32,
     curve: u32,
     length: f64,
-    /// Indices of points.
-    corners: Vec<i64>,
+    /// Its part of the corners.
+    corners: Range<usize>,
 }
 
 /// Number of a body, a triangle, a vertex or a curve where there is none.
@@ -180,14 +183,16 @@ impl Mesh {
         mesh.points.dedup();
         for same in hits {
             let [body, triangle] = same[0];
+            let start = mesh.corners.len();
             let place = |corner| mesh.points.partition_point(|&point| point < corner) as i64;
+            mesh.corners.extend(corners_of(&same[0]).map(place));
             mesh.triangles.push(Cell {
                 body,
                 triangle,
                 partners: same.len() as u32,
                 curve: NONE,
                 length: 0.0,
-                corners: corners_of(&same[0]).map(place).to_vec(),
+                corners: start..mesh.corners.len(),
             });
         }
         let pairs: Vec<Pair> = pairs
@@ -208,22 +213,26 @@ impl Mesh {
             let first = (self.points.len() + self.of_curves.len()) as i64;
             self.of_curves.extend(curve.points());
             let end = (self.points.len() + self.of_curves.len()) as i64;
-            let along: Vec<i64> = (first..end)
-                .chain(curve.is_closed().then_some(first))
-                .collect();
-            let at_once = match kind {
-                Kind::PolyData => along.len(),
-                Kind::UnstructuredGrid => 2,
+            let start = self.corners.len();
+            self.corners.extend(first..end);
+            self.corners.extend(curve.is_closed().then_some(first));
+            let along = start..self.corners.len();
+            let line = |corners| Cell {
+                body: NONE,
+                triangle: NONE,
+                partners: 0,
+                curve: number,
+                length: curve.length(),
+                corners,
             };
-            self.lines
-                .extend(along.windows(at_once).map(|corners| Cell {
-                    body: NONE,
-                    triangle: NONE,
-                    partners: 0,
-                    curve: number,
-                    length: curve.length(),
-                    corners: corners.to_vec(),
-                }));
+            match kind {
+                Kind::PolyData => self.lines.push(line(along)),
+                // Sides of a curve have its points in common.
+                Kind::UnstructuredGrid => {
+                    self.lines
+                        .extend((along.start + 1..along.end).map(|i| line(i - 1..i + 1)));
+                }
+            }
         }
     }
 
@@ -297,13 +306,13 @@ impl Mesh {
 
         match kind {
             Kind::PolyData => {
-                list(out, "Lines", self.lines.iter())?;
+                self.list(out, "Lines", self.lines.iter())?;
                 writeln!(out, "</Lines>")?;
-                list(out, "Polys", self.triangles.iter())?;
+                self.list(out, "Polys", self.triangles.iter())?;
                 writeln!(out, "</Polys>")?;
             }
             Kind::UnstructuredGrid => {
-                list(out, "Cells", all())?;
+                self.list(out, "Cells", all())?;
                 let kind = |cell: &Cell| if cell.curve == NONE { TRIANGLE } else { LINE };
                 array(out, "UInt8", "types", all().map(|cell| [kind(cell)]))?;
                 writeln!(out, "</Cells>")?;
@@ -312,27 +321,29 @@ impl Mesh {
         writeln!(out, "</Piece>")?;
         end(out, kind.name())
     }
-}
 
-/// Writes cells: the points of each, and where it ends in them.
-fn list<'c>(
-    out: &mut dyn Write,
-    name: &str,
-    cells: impl Iterator<Item = &'c Cell> + Clone,
-) -> io::Result<()> {
-    writeln!(out, "<{name}>")?;
-    let points = cells.clone().flat_map(|cell| &cell.corners);
-    array(
-        out,
-        "Int64",
-        "connectivity",
-        points.map(|point| point.to_le_bytes()),
-    )?;
-    let ends = cells.scan(0, |end, cell| {
-        *end += cell.corners.len() as i64;
-        Some(end.to_le_bytes())
-    });
-    array(out, "Int64", "offsets", ends)
+    /// Writes cells: the points of each, and where it ends in them.
+    fn list<'c>(
+        &self,
+        out: &mut dyn Write,
+        name: &str,
+        cells: impl Iterator<Item = &'c Cell> + Clone,
+    ) -> io::Result<()> {
+        writeln!(out, "<{name}>")?;
+        let points = cells.clone();
+        let points = points.flat_map(|cell| &self.corners[cell.corners.clone()]);
+        array(
+            out,
+            "Int64",
+            "connectivity",
+            points.map(|point| point.to_le_bytes()),
+        )?;
+        let ends = cells.scan(0, |end, cell| {
+            *end += cell.corners.len() as i64;
+            Some(end.to_le_bytes())
+        });
+        array(out, "Int64", "offsets", ends)
+    }
 }
 
 fn begin(out: &mut dyn Write, kind: &str) -> io::Result<()> {

@@ -285,8 +285,7 @@ fn memory_of_hits() {
         return;
     };
     let frame = f64::from(2 * pairs) * (3.0 * 24.0 + 12.0);
-    // Two triangles, and the line in which they meet.
-    let hits = f64::from(pairs) * (2.0 * 16.0 + 2.0 * 300.0 + 100.0);
+    let hits = f64::from(pairs) * (2.0 * 16.0 + 2.0 * 300.0);
     println!("{:.1} MB with hits", peak as f64 / 1e6);
     assert!((peak as f64) < MULTIPLE * 2.0 * frame + hits + PROGRAM as f64);
 }

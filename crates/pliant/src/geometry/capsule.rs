@@ -1,8 +1,10 @@
 //! Capsules: all points within a distance of a segment, for what is long and thin.
 //!
-//! An axis-aligned box of a long thin triangle holds mostly air, a capsule does not. Source: the
+//! An axis-aligned box of a long thin triangle is mostly empty, a capsule is not. Source: the
 //! line swept spheres of Larsen, Gottschalk, Lin and Manocha 1999. Invariant: the capsule holds
 //! every point that it was made round, whatever rounding did.
+
+use super::vector::{dot, minus, square_of, times};
 
 /// Capsule: the points within `radius` of the segment from `middle - reach along` to
 /// `middle + reach along`.
@@ -38,7 +40,7 @@ impl Capsule {
         let farthest = |from: [f64; 3]| {
             let mut best = (0.0, from);
             for point in points() {
-                let square = square(minus(point, from));
+                let square = square_of(minus(point, from));
                 if square > best.0 {
                     best = (square, point);
                 }
@@ -54,13 +56,13 @@ impl Capsule {
             [0.0; 3]
         };
         let wide = along.map(f64::from);
-        let scale = 1.0 / square(wide).max(0.1);
+        let scale = 1.0 / square_of(wide).max(0.1);
         // The axis is moved to halfway between it and the point that is farthest from it.
         let mut aside = [0.0; 3];
         for point in points() {
             let from = minus(point, start);
             let off = minus(from, times(dot(from, wide) * scale, wide));
-            if square(off) > square(aside) {
+            if square_of(off) > square_of(aside) {
                 aside = off;
             }
         }
@@ -75,7 +77,7 @@ impl Capsule {
         for point in points() {
             let part =
                 (dot(minus(point, from), wide) * scale).clamp(-f64::from(reach), reach.into());
-            most = most.max(square(minus(minus(point, from), times(part, wide))));
+            most = most.max(square_of(minus(minus(point, from), times(part, wide))));
             for axis in 0..3 {
                 largest = largest.max(point[axis].abs()).max(from[axis].abs());
             }
@@ -93,20 +95,4 @@ impl Capsule {
             radius: radius.next_up() + 4.0 * f32::MIN_POSITIVE,
         }
     }
-}
-
-fn times(by: f64, p: [f64; 3]) -> [f64; 3] {
-    [by * p[0], by * p[1], by * p[2]]
-}
-
-fn minus(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
-    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
-}
-
-fn dot(p: [f64; 3], q: [f64; 3]) -> f64 {
-    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-}
-
-fn square(p: [f64; 3]) -> f64 {
-    dot(p, p)
 }

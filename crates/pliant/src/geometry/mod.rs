@@ -24,6 +24,7 @@ mod capsule;
 mod points;
 mod real;
 mod shape;
+pub(crate) mod vector;
 
 pub(crate) use bounds::{Aabb, Bounds, Origin};
 pub(crate) use capsule::Capsule;

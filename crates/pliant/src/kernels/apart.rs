@@ -8,7 +8,7 @@
 //! whether tangential, parting or near, are known to be apart all the way after one direction.
 
 use super::coordinate::{Coordinate, Vectors};
-use super::vector::{dot, minus, plus, times};
+use crate::geometry::vector::{dot, minus, plus, times};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, mask32x8};
 

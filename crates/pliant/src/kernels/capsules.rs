@@ -7,8 +7,8 @@
 
 use super::boxes::{BoxLanes, Registers};
 use super::coordinate::Vectors;
-use super::vector::{cross, dot, minus, times};
 use crate::geometry::Capsule;
+use crate::geometry::vector::{cross, dot, minus, times};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, mask32x8};
 
@@ -28,7 +28,7 @@ pub(crate) struct EightCapsules {
 
 /// Eight boxes or fewer, and the capsules of the same things, if they have any.
 #[derive(Clone, Copy)]
-pub(crate) struct Enclosed<'b, const N: usize> {
+pub(crate) struct Volumes<'b, const N: usize> {
     pub(crate) boxes: &'b BoxLanes<N>,
     pub(crate) capsules: Option<&'b EightCapsules>,
 }
@@ -199,10 +199,10 @@ impl<I: Simd> Middles<I> {
 ///
 /// It is called and not inlined, for there are few who need it.
 #[inline(never)]
-pub(crate) fn without_air<I: Simd, const N: usize>(
+pub(crate) fn cull_by_capsules<I: Simd, const N: usize>(
     i: I,
-    a: Enclosed<N>,
-    b: Enclosed<N>,
+    a: Volumes<N>,
+    b: Volumes<N>,
     pairs: u64,
 ) -> u64 {
     i.vectorize(
@@ -212,7 +212,7 @@ pub(crate) fn without_air<I: Simd, const N: usize>(
 }
 
 #[inline(always)]
-fn apart<I: Simd, const N: usize>(i: I, a: Enclosed<N>, b: Enclosed<N>, pairs: u64) -> u64 {
+fn apart<I: Simd, const N: usize>(i: I, a: Volumes<N>, b: Volumes<N>, pairs: u64) -> u64 {
     let boxes = Middles::eight(i, b.boxes);
     let mut apart = 0;
     for lane in 0..N {
@@ -245,7 +245,7 @@ mod tests {
     type Triangle = [[f64; 3]; 3];
 
     /// Boxes and capsules of eight triangles relative to an origin.
-    fn enclosed(triangles: &[Triangle; 8], origin: [f64; 3]) -> (BoxLanes<8>, EightCapsules) {
+    fn volumes(triangles: &[Triangle; 8], origin: [f64; 3]) -> (BoxLanes<8>, EightCapsules) {
         let (mut boxes, mut capsules) = (BoxLanes::EMPTY, EightCapsules::EVERYTHING);
         for (lane, triangle) in triangles.iter().enumerate() {
             let mut bounds = Bounds::EMPTY;
@@ -265,9 +265,9 @@ mod tests {
             dispatch!(instructions, i => {
                 let pairs = overlap_mask(i, &a.0, &b.0);
                 let of = |has_a: bool, has_b: bool| {
-                    let a = Enclosed { boxes: &a.0, capsules: has_a.then_some(&a.1) };
-                    let b = Enclosed { boxes: &b.0, capsules: has_b.then_some(&b.1) };
-                    pairs & !without_air(i, a, b, pairs)
+                    let a = Volumes { boxes: &a.0, capsules: has_a.then_some(&a.1) };
+                    let b = Volumes { boxes: &b.0, capsules: has_b.then_some(&b.1) };
+                    pairs & !cull_by_capsules(i, a, b, pairs)
                 };
                 let (both, first, second) = (of(true, true), of(true, false), of(false, true));
                 assert_eq!((first | second) & !both, 0);
@@ -282,7 +282,7 @@ mod tests {
 
     /// Counts the pairs of triangles that are claimed to be apart, which must be.
     fn check(a: &[Triangle; 8], b: &[Triangle; 8], origin: [f64; 3]) -> u32 {
-        let apart = claims(&enclosed(a, origin), &enclosed(b, origin));
+        let apart = claims(&volumes(a, origin), &volumes(b, origin));
         for (i, a) in a.iter().enumerate() {
             for (j, b) in b.iter().enumerate() {
                 if apart >> (8 * i + j) & 1 == 1 {

@@ -9,8 +9,8 @@
 //! for slivers, the bounds are far apart and say so.
 
 use super::coordinate::{Coordinate, eight_differences, turn};
-use super::vector::{Vector, cross, difference, dot, minus, plus, square_of, times};
 use crate::geometry::Real;
+use crate::geometry::vector::{Vector, cross, difference, dot, minus, plus, square_of, times};
 use fearless_simd::prelude::*;
 use fearless_simd::{Select, Simd, f32x8, f64x4};
 use pliant_exact::{ELEMENT_PAIRS, FIRST_OF_EDGES, four_corners, is_swapped};

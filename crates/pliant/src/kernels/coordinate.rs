@@ -4,7 +4,7 @@
 //! registers: all x, all y and all z. Boxes are kept in this form, and eight decisions are made at
 //! once on it.
 
-use super::vector::{Vector, minus};
+use crate::geometry::vector::{Vector, minus};
 use crate::geometry::{OUTWARD, Points, Real};
 use crate::ids::TreeVertex;
 use fearless_simd::prelude::*;

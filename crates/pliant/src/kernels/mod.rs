@@ -26,7 +26,6 @@
 //! | `find` | search for a number among eight |
 //! | `ranks` | ranks of a few numbers: how many are smaller than each |
 //! | `coordinate` | points in registers, and transposed into lanes |
-//! | `vector` | arithmetic of vectors, of numbers or of registers |
 
 pub(crate) mod apart;
 mod boxes;
@@ -45,11 +44,10 @@ pub(crate) mod ranks;
 pub(crate) mod ring;
 pub(crate) mod signs;
 mod stars;
-mod vector;
 
 pub(crate) use boxes::{BoxLanes, EightBoxes, near_mask, overlap_mask};
 pub(crate) use buffer::Buffer;
-pub(crate) use capsules::{EightCapsules, Enclosed, without_air};
+pub(crate) use capsules::{EightCapsules, Volumes, cull_by_capsules};
 pub(crate) use coordinate::{Coordinate, TrianglePairs};
 pub(crate) use copy_checked::{check, copy_checked};
 pub(crate) use fearless_simd::Simd;

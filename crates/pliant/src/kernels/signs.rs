@@ -5,7 +5,7 @@
 //! by the shape of the triangles. But it needs no second sum for each sign.
 
 use super::coordinate::{Coordinate, TrianglePairs, Vectors};
-use super::vector::{cross, dot};
+use crate::geometry::vector::{cross, dot};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, mask32x8};
 

@@ -40,7 +40,7 @@ pub(crate) struct Needs {
     pub(crate) reach: Option<Reach>,
     /// Whether things are no hits that are further apart than twice `grows_by`, even where their
     /// boxes overlap.
-    pub(crate) passes_air: bool,
+    pub(crate) culls_by_capsules: bool,
 }
 
 impl Needs {
@@ -50,7 +50,7 @@ impl Needs {
         leaves: Shown::Triangles,
         grows_by: None,
         reach: None,
-        passes_air: true,
+        culls_by_capsules: true,
     };
 
     /// Whether the test gets triangles, not runs of them.

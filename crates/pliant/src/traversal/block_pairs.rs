@@ -9,8 +9,8 @@
 use crate::held::held;
 use crate::ids::BlockId;
 use crate::kernels::{
-    Buffer, EightCapsules, Enclosed, Instructions, QuantizedRows, Simd, dispatch, overlap_mask,
-    without_air,
+    Buffer, EightCapsules, Instructions, QuantizedRows, Simd, Volumes, cull_by_capsules, dispatch,
+    overlap_mask,
 };
 use crate::mesh::Order;
 use crate::queries::Candidate;
@@ -51,8 +51,8 @@ impl<'b> Blocks<'b> {
 
     /// Boxes of a block, and its capsules.
     #[inline(always)]
-    fn enclosed(self, block: BlockId) -> Enclosed<'b, 8> {
-        Enclosed {
+    fn volumes(self, block: BlockId) -> Volumes<'b, 8> {
+        Volumes {
             boxes: self.boxes.of(block),
             capsules: self.capsules.map(|all| &all[block.index()]),
         }
@@ -159,9 +159,9 @@ fn of_two<I: Simd>(i: I, both: [Blocks; 2], pairs: &[BlockPair], found: &mut Buf
 }
 
 /// Pushes the pairs of triangles of two blocks whose boxes overlap and whose bit is set in a mask.
-/// With `AIR`, leaves out what capsules show to be apart.
+/// With `CAPSULES`, leaves out what capsules show to be apart.
 #[inline(always)]
-fn push_overlapping<I: Simd, const AIR: bool>(
+fn push_overlapping<I: Simd, const CAPSULES: bool>(
     i: I,
     [of_a, of_b]: [Blocks; 2],
     [a, b]: BlockPair,
@@ -171,8 +171,8 @@ fn push_overlapping<I: Simd, const AIR: bool>(
     let (first_a, first_b) = (of_a.firsts.of(a), of_b.firsts.of(b));
     let room = found.room();
     let mut overlaps = overlap_mask(i, of_a.boxes.of(a), of_b.boxes.of(b)) & pairs;
-    if AIR {
-        overlaps = without_air(i, of_a.enclosed(a), of_b.enclosed(b), overlaps);
+    if CAPSULES {
+        overlaps = cull_by_capsules(i, of_a.volumes(a), of_b.volumes(b), overlaps);
     }
     room.push_bits(overlaps, |bit| {
         [first_a.plus(bit / 8), first_b.plus(bit % 8)]
@@ -193,7 +193,7 @@ fn of_one<I: Simd>(i: I, body: OneBody, pairs: &[BlockPair], found: &mut Buffer<
             overlaps &= STRICT_UPPER;
         }
         if blocks.capsules.is_some() {
-            overlaps = without_air(i, blocks.enclosed(a), blocks.enclosed(b), overlaps);
+            overlaps = cull_by_capsules(i, blocks.volumes(a), blocks.volumes(b), overlaps);
         }
         if let Some(neighbours) = body.neighbours
             && let Some(compared) = neighbours.compared(i, a, b)

@@ -119,7 +119,7 @@ impl<'v, S> View<'v, S> {
         BoxedTree {
             tree: self.read.tree,
             boxes: self.boxes,
-            passes_air: needs.passes_air,
+            culls_by_capsules: needs.culls_by_capsules,
         }
     }
 }

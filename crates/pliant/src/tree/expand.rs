@@ -7,8 +7,8 @@ use crate::geometry::Aabb;
 use crate::held::held;
 use crate::ids::{LeafId, NodeId, WideNodeId};
 use crate::kernels::{
-    BoxLanes, Buffer, EightCapsules, Enclosed, Instructions, Simd, dispatch, overlap_mask,
-    without_air,
+    BoxLanes, Buffer, EightCapsules, Instructions, Simd, Volumes, cull_by_capsules, dispatch,
+    overlap_mask,
 };
 
 /// Two nodes whose boxes are valid and overlap, or a node with itself.
@@ -23,33 +23,37 @@ pub(crate) struct BoxedTree<'t> {
     pub(crate) tree: &'t Tree,
     pub(crate) boxes: &'t BoxSet,
     /// Whether what capsules show to be apart is left out.
-    pub(crate) passes_air: bool,
+    pub(crate) culls_by_capsules: bool,
 }
 
 impl<'t> BoxedTree<'t> {
     /// Capsules of the nodes of every wide node, if there are any and they count.
     #[inline]
     fn node_capsules(self) -> Option<&'t [EightCapsules]> {
-        self.boxes.node_capsules().filter(|_| self.passes_air)
+        self.boxes
+            .node_capsules()
+            .filter(|_| self.culls_by_capsules)
     }
 
     /// Capsules of the triangles of every block, if there are any and they count.
     #[inline]
     pub(crate) fn block_capsules(self) -> Option<&'t [EightCapsules]> {
-        self.boxes.block_capsules().filter(|_| self.passes_air)
+        self.boxes
+            .block_capsules()
+            .filter(|_| self.culls_by_capsules)
     }
 }
 
 /// Boxes and capsules of the nodes of every wide node of a tree.
 #[derive(Clone, Copy)]
-struct AllEnclosed<'t, const N: usize> {
+struct NodeVolumes<'t, const N: usize> {
     boxes: &'t [BoxLanes<N>],
     capsules: Option<&'t [EightCapsules]>,
 }
 
-impl<'t, const N: usize> AllEnclosed<'t, N> {
-    fn of(self, wide_node: WideNodeId) -> Enclosed<'t, N> {
-        Enclosed {
+impl<'t, const N: usize> NodeVolumes<'t, N> {
+    fn of(self, wide_node: WideNodeId) -> Volumes<'t, N> {
+        Volumes {
             boxes: &self.boxes[wide_node.index()],
             capsules: self.capsules.map(|all| &all[wide_node.index()]),
         }
@@ -58,27 +62,21 @@ impl<'t, const N: usize> AllEnclosed<'t, N> {
     /// Clears the bits of pairs that capsules show to be apart: of nodes of a wide node of this
     /// tree and of one of another. Not inlined, so that trees without capsules lose nothing.
     #[inline(never)]
-    fn without_air<I: Simd>(
+    fn cull<I: Simd>(
         self,
         i: I,
         wide_node: WideNodeId,
         (other, of_other): (Self, WideNodeId),
         pairs: u64,
     ) -> u64 {
-        without_air(i, self.of(wide_node), other.of(of_other), pairs)
+        cull_by_capsules(i, self.of(wide_node), other.of(of_other), pairs)
     }
 
-    /// As [`without_air`](Self::without_air), of one node of this tree.
+    /// As [`cull`](Self::cull), of one node of this tree.
     #[inline(never)]
-    fn without_air_of_one<I: Simd>(
-        self,
-        i: I,
-        node: NodeId,
-        other: (Self, WideNodeId),
-        lanes: u64,
-    ) -> u64 {
+    fn cull_one<I: Simd>(self, i: I, node: NodeId, other: (Self, WideNodeId), lanes: u64) -> u64 {
         let (wide_node, lane) = node.wide_node_and_lane();
-        self.without_air(i, wide_node, other, lanes << (8 * lane)) >> (8 * lane)
+        self.cull(i, wide_node, other, lanes << (8 * lane)) >> (8 * lane)
     }
 }
 
@@ -135,15 +133,15 @@ pub(crate) fn expand(
     let of = trees.map(|it| it.tree);
     let capsules = trees.map(BoxedTree::node_capsules);
     of_degree!([trees[0].boxes.nodes(), trees[1].boxes.nodes()], boxes => {
-        let all = [0, 1].map(|which| AllEnclosed {
+        let all = [0, 1].map(|which| NodeVolumes {
             boxes: boxes[which],
             capsules: capsules[which],
         });
-        let air = capsules.iter().any(Option::is_some).then_some(&all);
+        let volumes = capsules.iter().any(Option::is_some).then_some(&all);
         dispatch!(instructions, i => if is_itself {
-            expand_all::<_, _, true>(i, of, boxes, air, batch, left_out, found);
+            expand_all::<_, _, true>(i, of, boxes, volumes, batch, left_out, found);
         } else {
-            expand_all::<_, _, false>(i, of, boxes, air, batch, left_out, found);
+            expand_all::<_, _, false>(i, of, boxes, volumes, batch, left_out, found);
         });
     });
 }
@@ -154,7 +152,7 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
     i: I,
     [a, b]: [&Tree; 2],
     [boxes_a, boxes_b]: [&[BoxLanes<N>]; 2],
-    air: Option<&[AllEnclosed<N>; 2]>,
+    volumes: Option<&[NodeVolumes<N>; 2]>,
     batch: &[NodePair],
     left_out: Option<&Neighbours>,
     found: &mut Worklists,
@@ -182,8 +180,8 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
             }
             (Child::Leaf(_), Child::Inner(below)) => {
                 let mut mask = boxes_b[below.index()].overlaps(&one_box(boxes_a, node_a));
-                if let Some([a, b]) = air {
-                    mask = a.without_air_of_one(i, node_a, (*b, below), mask);
+                if let Some([a, b]) = volumes {
+                    mask = a.cull_one(i, node_a, (*b, below), mask);
                 }
                 nodes
                     .room()
@@ -191,8 +189,8 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
             }
             (Child::Inner(below), Child::Leaf(_)) => {
                 let mut mask = boxes_a[below.index()].overlaps(&one_box(boxes_b, node_b));
-                if let Some([a, b]) = air {
-                    mask = b.without_air_of_one(i, node_b, (*a, below), mask);
+                if let Some([a, b]) = volumes {
+                    mask = b.cull_one(i, node_b, (*a, below), mask);
                 }
                 nodes
                     .room()
@@ -229,8 +227,8 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
                     let mask = overlap_mask(i, boxes_a, boxes_b) & asked;
                     *node_pairs += u64::from(mask.count_ones());
                     let mut mask = mask & left;
-                    if let Some([a, b]) = air {
-                        mask = a.without_air(i, below_a, (*b, below_b), mask);
+                    if let Some([a, b]) = volumes {
+                        mask = a.cull(i, below_a, (*b, below_b), mask);
                     }
                     room.push_bits(mask, |bit| [first_a.plus(bit / 8), first_b.plus(bit % 8)]);
                     if left_out.is_some() {
@@ -254,8 +252,8 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
                 }
                 let room = nodes.room();
                 let mut mask = overlap_mask(i, boxes_a, boxes_b) & asked;
-                if let Some([a, b]) = air {
-                    mask = a.without_air(i, below_a, (*b, below_b), mask);
+                if let Some([a, b]) = volumes {
+                    mask = a.cull(i, below_a, (*b, below_b), mask);
                 }
                 let node = |below, lane| NodeId::new(below, lane as usize);
                 room.push_bits(mask, |bit| [node(below_a, bit / 8), node(below_b, bit % 8)]);

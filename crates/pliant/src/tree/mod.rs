@@ -24,7 +24,7 @@ use crate::mesh::Order;
 use crate::threads::{Budget, Executor};
 pub(crate) use boxes::{
     BlockBoxes, BoxSet, BoxSource, Grown, LeavesMut, NodeLanes, NodesMut, Over, Quantized, Source,
-    Version, capsule_of_node, make_of_block, make_of_nodes, of_degree, of_source,
+    Version, capsule_of_node, make_block_capsules, make_node_capsules, of_degree, of_source,
 };
 use build::Plan;
 pub(crate) use expand::{BoxedTree, LeafPair, NodePair, Worklists, expand};

@@ -12,7 +12,9 @@ use crate::kernels::extent::{self, Extent, Four};
 use crate::kernels::{Coordinate, EightBoxes, Simd, dispatch};
 use crate::statistics::Statistics;
 use crate::threads::Grain;
-use crate::tree::{BLOCK_LANES, BoxSource, Leaves, LeavesMut, Over, make_of_block, of_source};
+use crate::tree::{
+    BLOCK_LANES, BoxSource, Leaves, LeavesMut, Over, make_block_capsules, of_source,
+};
 use std::ops::Range;
 
 /// Words of 64 leaves in a job.
@@ -138,7 +140,7 @@ impl LeafRun<'_> {
         let triangles = &source.shape().triangles[triangles];
         let capsules = &mut self.boxes.capsules[block.index() - self.boxes.first_block..];
         for (triangles, capsules) in triangles.chunks(BLOCK_LANES).zip(capsules) {
-            make_of_block(capsules, triangles, source);
+            make_block_capsules(capsules, triangles, source);
         }
     }
 }

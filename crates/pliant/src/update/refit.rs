@@ -9,7 +9,7 @@ use crate::kernels::extent::{self, Extent};
 use crate::kernels::{BoxLanes, Coordinate, Simd, dispatch};
 use crate::threads::Grain;
 use crate::tree::{
-    BoxSource, Child, NodesMut, Over, Source, Tree, make_of_nodes, of_degree, of_source,
+    BoxSource, Child, NodesMut, Over, Source, Tree, make_node_capsules, of_degree, of_source,
 };
 
 /// Jobs whose wide nodes are refitted between two checks for interruption.
@@ -124,7 +124,12 @@ pub(super) fn refit_all<const N: usize, S: Coordinate, F: Below<N>>(
                     }
                 });
                 if !job.nodes.capsules.is_empty() {
-                    job.make_capsules(run, tree, source);
+                    for &wide_node in run {
+                        if executor.is_interrupted() {
+                            return;
+                        }
+                        job.make_capsules(wide_node, tree, source);
+                    }
                 }
             });
         }
@@ -164,12 +169,10 @@ impl<const N: usize, F: Below<N>> NodeRun<'_, N, F> {
     }
 
     /// Makes the capsules beside the boxes.
-    fn make_capsules<B: BoxSource>(&mut self, run: &[WideNodeId], tree: &Tree, source: &B) {
-        for &wide_node in run {
-            let place = wide_node.index() - self.nodes.first;
-            make_of_nodes(&mut self.nodes.capsules[place], tree, wide_node, source);
-            self.from.make_capsules(wide_node, tree, source);
-        }
+    fn make_capsules<B: BoxSource>(&mut self, wide_node: WideNodeId, tree: &Tree, source: &B) {
+        let place = wide_node.index() - self.nodes.first;
+        make_node_capsules(&mut self.nodes.capsules[place], tree, wide_node, source);
+        self.from.make_capsules(wide_node, tree, source);
     }
 
     #[inline(always)]

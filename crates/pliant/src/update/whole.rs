@@ -12,7 +12,7 @@ use crate::ids::{BlockId, LeafId, WideNodeId};
 use crate::kernels::extent::{self, Extent};
 use crate::kernels::{BoxLanes, Coordinate, QuantizedLanes, Simd, quantize};
 use crate::threads::Grain;
-use crate::tree::{BoxSource, LeavesMut, NodesMut, Tree, make_of_block, of_degree};
+use crate::tree::{BoxSource, LeavesMut, NodesMut, Tree, make_block_capsules, of_degree};
 
 /// Largest change of units since the step before, as a factor. With more, boxes quantized on the
 /// way are discarded.
@@ -131,7 +131,7 @@ impl<const N: usize> Below<N> for Triangles<'_> {
         for lane in 0..tree.wide_node(wide_node).len() {
             let triangles = tree.leaves.triangles(first.plus(lane as u32));
             let corners = &source.shape().triangles[triangles];
-            make_of_block(&mut self.leaves.capsules[place + lane], corners, source);
+            make_block_capsules(&mut self.leaves.capsules[place + lane], corners, source);
         }
     }
 }

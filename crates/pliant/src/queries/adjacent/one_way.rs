@@ -5,6 +5,7 @@
 //! yes is certain; no says nothing. Source: the perceptron of Rosenblatt 1958.
 
 use super::sector::Sector;
+use crate::geometry::vector::{self, dot};
 
 /// Most directions that are tried.
 const MOST_TRIED: usize = 8;
@@ -14,11 +15,7 @@ const ERROR: f64 = 10.0 * (f64::EPSILON / 2.0);
 /// Far above all that is lost below the normal range: 2^-1022, times two lengths below 2^130.
 const LOST: f64 = 1e-220;
 
-type Vector = [f64; 3];
-
-fn dot(p: Vector, q: Vector) -> f64 {
-    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-}
+type Vector = vector::Vector<f64>;
 
 /// Normal of the triangle at the vertex between two edges, with the sizes of its terms.
 #[derive(Clone, Copy, Debug, Default)]

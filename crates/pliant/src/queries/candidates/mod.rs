@@ -122,7 +122,7 @@ impl Margin {
             leaves: Shown::Runs(which),
             grows_by: Some(self.grown_by),
             reach: Some(Reach::End),
-            passes_air: false,
+            culls_by_capsules: false,
         }
     }
 

@@ -99,7 +99,7 @@ where
 
     fn needs(&self) -> Needs {
         Needs {
-            passes_air: true,
+            culls_by_capsules: true,
             ..self.candidates.needs()
         }
     }

@@ -127,7 +127,7 @@ impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
     fn needs(&self) -> Needs {
         Needs {
             reach: Some(self.reach),
-            passes_air: true,
+            culls_by_capsules: true,
             ..self.candidates.needs()
         }
     }

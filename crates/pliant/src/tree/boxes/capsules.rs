@@ -1,6 +1,6 @@
 //! Capsules beside the boxes of nodes and triangles, for a tree of long thin triangles.
 //!
-//! Boxes of long thin triangles hold mostly air, whatever tree is over them. So where there are
+//! Boxes of long thin triangles are mostly empty, whatever tree is over them. So where there are
 //! many (`build::thin`), each box over few vertices has a capsule beside it. They are made with the
 //! boxes, and valid when these are.
 
@@ -33,7 +33,7 @@ impl Capsules {
 
 /// Makes the capsules of the triangles of a block.
 #[inline(never)]
-pub(crate) fn make_of_block<B: BoxSource>(
+pub(crate) fn make_block_capsules<B: BoxSource>(
     capsules: &mut EightCapsules,
     triangles: &[[TreeVertex; 3]],
     source: &B,
@@ -45,7 +45,7 @@ pub(crate) fn make_of_block<B: BoxSource>(
 
 /// Makes the capsules of the nodes of a wide node.
 #[inline(never)]
-pub(crate) fn make_of_nodes<B: BoxSource>(
+pub(crate) fn make_node_capsules<B: BoxSource>(
     capsules: &mut EightCapsules,
     tree: &Tree,
     wide_node: WideNodeId,

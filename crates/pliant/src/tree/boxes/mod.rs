@@ -15,7 +15,7 @@ use crate::held::{self, held};
 use crate::ids::{BlockId, LeafId, WideNodeId};
 use crate::kernels::{BoxLanes, EightBoxes, EightCapsules, QuantizedLanes};
 use capsules::Capsules;
-pub(crate) use capsules::{capsule_of_node, make_of_block, make_of_nodes};
+pub(crate) use capsules::{capsule_of_node, make_block_capsules, make_node_capsules};
 pub(crate) use lanes::{NodeLanes, of_degree};
 pub(crate) use source::{BoxSource, Grown, Over, Source, Version, of_source};
 

@@ -57,34 +57,37 @@ impl Capsule {
         };
         let wide = along.map(f64::from);
         let scale = 1.0 / square_of(wide).max(0.1);
-        // The axis is moved to halfway between it and the point that is farthest from it.
-        let mut aside = [0.0; 3];
+        // The middle is halfway between the ends, and halfway to the point farthest from the axis.
+        let (mut aside, mut low, mut high) = ([0.0; 3], 0.0_f64, 0.0_f64);
         for point in points() {
             let from = minus(point, start);
-            let off = minus(from, times(dot(from, wide) * scale, wide));
+            let part = dot(from, wide) * scale;
+            (low, high) = (low.min(part), high.max(part));
+            let off = minus(from, times(part, wide));
             if square_of(off) > square_of(aside) {
                 aside = off;
             }
         }
-        let middle = [0, 1, 2].map(|axis| (start[axis] + 0.5 * (way[axis] + aside[axis])) as f32);
-        let from = middle.map(f64::from);
-        let mut reach: f64 = 0.0;
+        let half = |axis: usize| 0.5 * ((low + high) * wide[axis] + aside[axis]);
+        let middle = [0, 1, 2].map(|axis| (start[axis] + half(axis)) as f32);
+        let reach = (0.5 * (high - low)) as f32;
+        // From here on rounded numbers are what they are: whatever the segment, all are within the
+        // largest distance from it.
+        let (from, most) = (middle.map(f64::from), f64::from(reach));
+        let mut radius = 0.0_f64;
         for point in points() {
-            reach = reach.max((dot(minus(point, from), wide) * scale).abs());
+            let way = minus(point, from);
+            let part = (dot(way, wide) * scale).clamp(-most, most);
+            radius = radius.max(square_of(minus(way, times(part, wide))));
         }
-        let reach = (reach as f32).next_up();
-        let (mut most, mut largest) = (0.0_f64, 0.0_f64);
-        for point in points() {
-            let part =
-                (dot(minus(point, from), wide) * scale).clamp(-f64::from(reach), reach.into());
-            most = most.max(square_of(minus(minus(point, from), times(part, wide))));
-            for axis in 0..3 {
-                largest = largest.max(point[axis].abs()).max(from[axis].abs());
-            }
-        }
+        let radius = radius.sqrt();
+        let farthest = from
+            .iter()
+            .fold(0.0, |farthest: f64, x| farthest.max(x.abs()));
+        let largest = farthest + most + radius;
         // Differences of coordinates, and parts of the reach, are rounded.
-        let radius = most.sqrt() + ROUNDING * (largest + f64::from(reach)) + f64::from(distance);
-        if largest.max(reach.into()).max(radius) >= FARTHEST {
+        let radius = radius + ROUNDING * largest + f64::from(distance);
+        if largest.max(radius) >= FARTHEST {
             return Self::EVERYTHING;
         }
         let radius = (radius * (1.0 + ROUNDING)) as f32;

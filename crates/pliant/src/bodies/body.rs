@@ -414,7 +414,9 @@ impl<S: Coordinate> Body<S> {
             distance: 0.0,
         };
         let mut parts = self.parts.all_mut();
-        parts.all(|part| part.make_near_boxes(which, &source, elements, (instructions, executor)))
+        parts.all(|part| {
+            part.make_near_boxes(which, &source, (order, elements), (instructions, executor))
+        })
     }
 
     /// One part of the body, as a query descends it. The shape must be in tree order.

@@ -10,7 +10,7 @@ use crate::mesh::{Elements, Order};
 use crate::options::Partition;
 use crate::queries::{BoxSetNumber, NearBoxes, OF_MOTIONS, OF_SHAPES, Which};
 use crate::threads::Executor;
-use crate::tree::{BoxSet, BoxSource, Grown, Tree, Version};
+use crate::tree::{BoxSet, Grown, Tree, Version};
 use std::ops::Range;
 
 /// Tree over a run of the triangles in tree order, with its boxes.
@@ -132,16 +132,14 @@ impl Part {
         &mut self,
         which: Which,
         source: &Grown<S>,
-        elements: &Elements,
+        (order, elements): (&Order, &Elements),
         threads: (Instructions, Executor),
     ) -> bool {
-        self.near_boxes.get_or_insert_default().make(
-            which,
-            source.version(),
-            threads,
-            (&source.from, source.to.map(|end| end.positions)),
-            (&self.tree.leaves, elements),
-        )
+        if self.is_first() {
+            self.tree.know_fans(order);
+        }
+        let boxes = self.near_boxes.get_or_insert_default();
+        boxes.make(which, source, threads, (&self.tree, elements))
     }
 
     /// Finds which triangles share a vertex, for the first part, which may meet itself.
@@ -149,9 +147,14 @@ impl Part {
     /// For a small part behind others that is not worth a table, whose cost is O(all vertices):
     /// corners are compared there.
     pub(crate) fn know_neighbours(&mut self, order: &Order, executor: Executor) {
-        if self.triangles.start == 0 {
+        if self.is_first() {
             self.tree.know_neighbours(order, executor);
         }
+    }
+
+    /// Whether this is the body's first part.
+    fn is_first(&self) -> bool {
+        self.triangles.start == 0
     }
 }
 

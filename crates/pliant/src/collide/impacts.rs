@@ -101,7 +101,9 @@ impl<S: Coordinate> AskedImpacts<S> {
                 earliest = asked.earliest(common, request, reach, distance, earliest)?;
                 statistics += common.statistics;
             }
-            if of != OfKind::VerticesAndTriangles {
+            // Of contacts at the start those of vertices come first.
+            let is_found = earliest.known_at_start().is_some();
+            if of != OfKind::VerticesAndTriangles && !is_found {
                 let asked = &mut self.edge_edge;
                 earliest = asked.earliest(common, request, reach, distance, earliest)?;
                 statistics += common.statistics;

@@ -120,6 +120,7 @@ impl<'v, S> View<'v, S> {
             tree: self.read.tree,
             boxes: self.boxes,
             culls_by_capsules: needs.culls_by_capsules,
+            rims: self.read.elements.as_ref().map(|it| it.boxes.rims()),
         }
     }
 }

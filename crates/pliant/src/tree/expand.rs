@@ -2,7 +2,8 @@
 //!
 //! Trees are of one degree, which is matched on once a batch (`boxes/lanes.rs`).
 
-use super::{BoxSet, Child, Neighbours, STRICT_UPPER, Tree, of_degree};
+use super::rims::GrownRims;
+use super::{BoxSet, Child, Neighbours, Rims, STRICT_UPPER, Tree, of_degree};
 use crate::geometry::Aabb;
 use crate::held::held;
 use crate::ids::{LeafId, NodeId, WideNodeId};
@@ -24,6 +25,8 @@ pub(crate) struct BoxedTree<'t> {
     pub(crate) boxes: &'t BoxSet,
     /// Whether what capsules show to be apart is left out.
     pub(crate) culls_by_capsules: bool,
+    /// Rims, for kinds that look at elements.
+    pub(crate) rims: Option<&'t Rims>,
 }
 
 impl<'t> BoxedTree<'t> {
@@ -44,11 +47,12 @@ impl<'t> BoxedTree<'t> {
     }
 }
 
-/// Boxes and capsules of the nodes of every wide node of a tree.
+/// Boxes and capsules of the nodes of every wide node of a tree, and its rims if it meets itself.
 #[derive(Clone, Copy)]
 struct NodeVolumes<'t, const N: usize> {
     boxes: &'t [BoxLanes<N>],
     capsules: Option<&'t [EightCapsules]>,
+    rims: Option<GrownRims<'t>>,
 }
 
 impl<'t, const N: usize> NodeVolumes<'t, N> {
@@ -59,8 +63,9 @@ impl<'t, const N: usize> NodeVolumes<'t, N> {
         }
     }
 
-    /// Clears the bits of pairs that capsules show to be apart: of nodes of a wide node of this
-    /// tree and of one of another. Not inlined, so that trees without capsules lose nothing.
+    /// Clears the bits of pairs that capsules show to be apart, or that rims leave out: of nodes of
+    /// a wide node of this tree and of one of another. Not inlined, so that trees without either
+    /// lose nothing.
     #[inline(never)]
     fn cull<I: Simd>(
         self,
@@ -69,7 +74,27 @@ impl<'t, const N: usize> NodeVolumes<'t, N> {
         (other, of_other): (Self, WideNodeId),
         pairs: u64,
     ) -> u64 {
-        cull_by_capsules(i, self.of(wide_node), other.of(of_other), pairs)
+        let mut left = pairs;
+        if let Some(rims) = self.rims {
+            let (a, b) = (self.of(wide_node).boxes, other.of(of_other).boxes);
+            let mut pairs = pairs;
+            while pairs != 0 {
+                let bit = pairs.trailing_zeros();
+                let [lane_a, lane_b] = [bit as usize / 8, bit as usize % 8];
+                let nodes = [
+                    NodeId::new(wide_node, lane_a),
+                    NodeId::new(of_other, lane_b),
+                ];
+                if rims.leave_out(nodes, [a.get(lane_a), b.get(lane_b)]) {
+                    left &= !(1 << bit);
+                }
+                pairs &= pairs - 1;
+            }
+        }
+        if self.capsules.is_none() && other.capsules.is_none() {
+            return left;
+        }
+        cull_by_capsules(i, self.of(wide_node), other.of(of_other), left)
     }
 
     /// As [`cull`](Self::cull), of one node of this tree.
@@ -132,12 +157,20 @@ pub(crate) fn expand(
 ) {
     let of = trees.map(|it| it.tree);
     let capsules = trees.map(BoxedTree::node_capsules);
+    let rims = trees[0].rims.filter(|rims| is_itself && rims.are_any());
+    let rims = rims.map(|rims| GrownRims {
+        rims,
+        tree: trees[0].tree,
+        grown_by: trees[0].boxes.grown_by(),
+    });
     of_degree!([trees[0].boxes.nodes(), trees[1].boxes.nodes()], boxes => {
         let all = [0, 1].map(|which| NodeVolumes {
             boxes: boxes[which],
             capsules: capsules[which],
+            rims,
         });
-        let volumes = capsules.iter().any(Option::is_some).then_some(&all);
+        let is_culled = rims.is_some() || capsules.iter().any(Option::is_some);
+        let volumes = is_culled.then_some(&all);
         dispatch!(instructions, i => if is_itself {
             expand_all::<_, _, true>(i, of, boxes, volumes, batch, left_out, found);
         } else {
@@ -165,6 +198,7 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
     } = found;
     *node_pairs += batch.len() as u64;
     let (nodes_a, nodes_b) = (a.nodes(), b.nodes());
+    let fans = a.fans().filter(|_| left_out.is_some());
     for &[node_a, node_b] in batch {
         match (nodes_a.child(node_a), nodes_b.child(node_b)) {
             (Child::Leaf(leaf_a), Child::Leaf(leaf_b)) => {
@@ -197,7 +231,7 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
                     .push_bits(mask, |lane| [NodeId::new(below, lane as usize), node_b]);
             }
             (Child::Inner(below_a), Child::Inner(below_b)) => {
-                if left_out.is_some_and(|known| known.are_one_fan(below_a, below_b)) {
+                if fans.is_some_and(|fans| fans.are_one(a, node_a, node_b)) {
                     continue;
                 }
                 let (wide_a, wide_b) = (nodes_a.wide(below_a), nodes_b.wide(below_b));

@@ -82,6 +82,12 @@ impl Leaves {
         start as usize..end as usize
     }
 
+    /// Returns the triangles of all leaves, as places in tree order.
+    pub(super) fn all_triangles(&self) -> Range<usize> {
+        let end = self.runs.last().map_or(self.first.0, |leaf| leaf.end);
+        self.first.index()..end as usize
+    }
+
     /// Returns the first triangle of a leaf.
     #[inline]
     pub(crate) fn first_triangle(&self, leaf: LeafId) -> TreeTriangle {

@@ -14,6 +14,7 @@ mod fans;
 mod lanes_at_vertices;
 mod leaves;
 mod neighbours;
+mod rims;
 mod validate;
 mod vertex_sets;
 mod wide_node;
@@ -28,8 +29,10 @@ pub(crate) use boxes::{
 };
 use build::Plan;
 pub(crate) use expand::{BoxedTree, LeafPair, NodePair, Worklists, expand};
+use fans::Fans;
 pub(crate) use leaves::{BLOCK_LANES, FirstsOfBlocks, Leaves};
 pub(crate) use neighbours::{Neighbours, NeighboursBuilder, STRICT_UPPER};
+pub(crate) use rims::Rims;
 pub(crate) use vertex_sets::VertexSets;
 use vertex_sets::VertexSetsBuilder;
 pub(crate) use wide_node::{Child, WideNode};
@@ -51,6 +54,8 @@ pub(crate) struct Tree {
     /// Table of triangles that share a vertex. Made when the body first meets itself, which most
     /// bodies never do.
     neighbours: Option<Box<Neighbours>>,
+    /// Fans. Found when the body first meets itself, if many triangles may share a vertex.
+    fans: Option<Box<Fans>>,
     /// Most children of a node: 2, 4 or 8.
     degree: usize,
     /// Whether many of the triangles are long and thin.
@@ -112,8 +117,24 @@ impl Tree {
 
     /// Finishes the table of neighbours and keeps it.
     pub(crate) fn take_neighbours(&mut self, neighbours: NeighboursBuilder, order: &Order) {
-        let neighbours = neighbours.finish(&self.wide_nodes, &self.leaves, order);
+        let neighbours = neighbours.finish(&self.wide_nodes, &self.leaves);
+        if neighbours.is_any_crowded() {
+            self.know_fans(order);
+        }
         self.neighbours = Some(Box::new(neighbours));
+    }
+
+    /// Finds the fans, unless they are known.
+    pub(crate) fn know_fans(&mut self, order: &Order) {
+        if self.fans.is_none() {
+            self.fans = Some(Box::new(Fans::new(self, order)));
+        }
+    }
+
+    /// Returns the fans, if they are known.
+    #[inline]
+    fn fans(&self) -> Option<&Fans> {
+        self.fans.as_deref()
     }
 
     /// Returns the table of neighbours, if it is made.
@@ -143,6 +164,13 @@ impl Tree {
     #[inline(always)]
     pub(crate) fn child(&self, node: NodeId) -> Child {
         self.nodes().child(node)
+    }
+
+    /// Returns the number of a node, counted level by level: its place in `VertexSets`.
+    #[inline(always)]
+    fn number_of(&self, node: NodeId) -> usize {
+        let (wide_node, lane) = node.wide_node_and_lane();
+        self.wide_node(wide_node).first_node as usize + lane
     }
 
     /// Iterates over the nodes in a wide node.
@@ -209,6 +237,7 @@ impl TreeBuilder {
             vertices: VertexSets::default(),
             leaves,
             neighbours: None,
+            fans: None,
             degree: plan.degree,
             has_thin: plan.has_thin,
             depth: plan.nodes.last().map_or(0, |deepest| deepest.level),
@@ -254,4 +283,4 @@ impl<'t> Nodes<'t> {
 }
 
 held!(Tree: wide_nodes[], level_starts[], vertices, leaves;
-    |tree| held::boxes(&tree.neighbours));
+    |tree| held::boxes(&tree.neighbours) + held::boxes(&tree.fans));

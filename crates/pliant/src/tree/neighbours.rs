@@ -8,7 +8,6 @@
 //! neighbours are *crowded* and have no list, for masks would take memory by the square
 //! ([`Neighbours::is_crowded`]).
 
-use super::fans::Fans;
 use super::lanes_at_vertices::LanesAtVertices;
 use super::{BLOCK_LANES, Leaves, WideNode};
 use crate::held::held;
@@ -115,8 +114,7 @@ pub(crate) struct Neighbours {
     /// For each wide node of leaves that are blocks: the pairs of leaves that are neighbours and
     /// not crowded. A leaf is its own neighbour.
     of_wide_nodes: LaneLists,
-    /// Fans; empty if no block is crowded.
-    fans: Fans,
+    is_any_crowded: bool,
 }
 
 impl Neighbours {
@@ -135,17 +133,15 @@ impl Neighbours {
     /// Whether a block is crowded: it has too many neighbours, and no list of them.
     ///
     /// Crowded blocks are found by their boxes, like strangers. Corners are compared when their
-    /// triangles are. Nodes that are one fan (`fans`) are left out.
+    /// triangles are. Nodes of one fan (`fans`) are left out.
     #[inline(always)]
     pub(crate) fn is_crowded(&self, block: BlockId) -> bool {
         self.of_blocks.list(block.0).is_empty()
     }
 
-    /// Whether all triangles below the nodes of two wide nodes are known to be neighbours. For
-    /// leaves that are blocks.
-    #[inline(always)]
-    pub(crate) fn are_one_fan(&self, a: WideNodeId, b: WideNodeId) -> bool {
-        self.fans.are_one(a, b)
+    /// Whether any block is crowded.
+    pub(super) fn is_any_crowded(&self) -> bool {
+        self.is_any_crowded
     }
 
     /// Returns a block and its later neighbours, with the mask of triangle pairs to compare with
@@ -292,25 +288,15 @@ impl NeighboursBuilder {
     }
 
     /// Returns the finished table.
-    pub(super) fn finish(
-        self,
-        wide_nodes: &[WideNode],
-        leaves: &Leaves,
-        order: &Order,
-    ) -> Neighbours {
+    pub(super) fn finish(self, wide_nodes: &[WideNode], leaves: &Leaves) -> Neighbours {
         let mut of_blocks = self.of_blocks;
         of_blocks.finish();
         // It is as large as the lists, and no longer needed.
         drop(self.at_vertices);
         let wide_nodes = if leaves.are_blocks() { wide_nodes } else { &[] };
         let is_crowded = |block: u32| of_blocks.list(block).is_empty();
-        let fans = if (0..leaves.block_count() as u32).any(is_crowded) {
-            Fans::new(wide_nodes, leaves, order)
-        } else {
-            Fans::default()
-        };
         Neighbours {
-            fans,
+            is_any_crowded: (0..leaves.block_count() as u32).any(is_crowded),
             of_wide_nodes: lists_of_wide_nodes(wide_nodes, leaves, &of_blocks),
             of_blocks,
         }
@@ -362,7 +348,7 @@ fn lists_of_wide_nodes(
 
 held!(LaneLists: starts[], others[], masks[]);
 
-held!(Neighbours: of_blocks, of_wide_nodes, fans);
+held!(Neighbours: of_blocks, of_wide_nodes);
 
 #[cfg(test)]
 mod tests {
@@ -388,7 +374,7 @@ mod tests {
         }
         let mut neighbours = NeighboursBuilder::new(&leaves, &order);
         while !neighbours.advance(&leaves, &order, &mut Budget::of(1)) {}
-        let neighbours = neighbours.finish(&[], &leaves, &order);
+        let neighbours = neighbours.finish(&[], &leaves);
         let blocks = || (0..leaves.block_count() as u32).map(BlockId);
         let first = |block: BlockId| leaves.first_of_block(block).0;
         let end = |block: BlockId| {

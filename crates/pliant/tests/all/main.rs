@@ -26,6 +26,7 @@ mod distances;
 mod edits;
 mod edits_refused;
 mod every_kind;
+mod fans;
 mod figure_2;
 mod first_impact;
 mod flush_to_zero;

@@ -363,34 +363,6 @@ fn ten_million_triangles() {
     stack.spawn(all).unwrap().join().unwrap();
 }
 
-/// Triangles round one vertex are not met quadratically.
-///
-/// Meshes are the lid of a cylinder as a fan, and a mesh that lies in one point.
-#[test]
-fn triangles_round_one_vertex_cost_no_more_than_others() {
-    const COUNT: u32 = 40_000;
-    let rim = |t: u32| {
-        let angle = f64::from(t) * std::f64::consts::TAU / f64::from(COUNT);
-        let (sin, cos) = angle.sin_cos();
-        [cos, sin, 0.1 * (7.0 * angle).sin()].map(|x| x as f32)
-    };
-    let lid: Vec<[u32; 3]> = (0..COUNT)
-        .map(|t| [0, 1 + t, 1 + (t + 1) % COUNT])
-        .collect();
-    let mut corners = vec![[0.0, 0.0, 1.0]];
-    corners.extend((0..COUNT).map(rim));
-    let point = vec![[0_u32; 3]; COUNT as usize];
-    for (triangles, positions) in [(&lid, &corners[..]), (&point, &corners[..1])] {
-        let mut world = World::<f32>::new();
-        let body = world.add(triangles, positions).unwrap();
-        let found = world.intersections(Selection::Within(body)).all().unwrap();
-        assert!(found.is_empty(), "all share a vertex");
-        let work = *world.statistics();
-        // Quadratic work would be 12 million pairs of leaves.
-        assert!(work.node_pairs < u64::from(COUNT), "{work:?}");
-    }
-}
-
 /// Two fans that cross, as one body and as two bodies.
 #[test]
 fn fans_of_one_body_meet_each_other() {

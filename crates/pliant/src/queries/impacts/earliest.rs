@@ -62,6 +62,16 @@ impl Earliest {
         f64::from_bits(self.until.load(Ordering::Relaxed))
     }
 
+    /// Elements that are known to meet at the start. Nothing is earlier, so only what comes before
+    /// them in order is of interest.
+    pub(crate) fn known_at_start(&self) -> Option<Impact> {
+        if self.known() > 0.0 {
+            return None;
+        }
+        let first = self.first.read().unwrap_or_else(PoisonError::into_inner);
+        first.as_ref().map(|known| known.impact)
+    }
+
     pub(crate) fn first(self) -> Option<First> {
         self.first
             .into_inner()

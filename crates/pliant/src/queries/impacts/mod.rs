@@ -146,6 +146,13 @@ impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
         self.candidates.test(leaves, batch, candidates);
         // Pairs and exact decisions are counted of impacts, not of candidates.
         statistics.candidate_pairs += candidates.statistics.candidate_pairs;
+        if let Some(known) = self.earliest.known_at_start() {
+            let to_caller = |&pair: &[u32; 2]| self.candidates.to_caller(&leaves.ids, pair);
+            let impact = |pair: &[u32; 2]| to_caller(pair).impact([0.0; 2]).into();
+            candidates
+                .hits
+                .retain(|pair| Impact::order(&impact(pair)) < known.order());
+        }
         let until = self.earliest.until();
         let used = candidates.hits.len();
         let eights = candidates.hits.eights();

@@ -8,7 +8,7 @@ use crate::ids::TreeVertex;
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{Elements, TriangleRun};
 use crate::threads::Executor;
-use crate::tree::{Leaves, Version};
+use crate::tree::{BoxSource, Grown, Rims, Tree};
 
 /// Kinds of elements that a kind of query looks at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +23,7 @@ pub(crate) struct NearBoxes {
     pub(in crate::queries) vertices: Option<RunBoxes<1>>,
     pub(in crate::queries) triangles: Option<RunBoxes<3>>,
     pub(in crate::queries) edges: Option<RunBoxes<2>>,
+    rims: Rims,
 }
 
 /// Vertices and edges of a body, and their boxes.
@@ -37,16 +38,26 @@ pub(crate) struct NearElements<'q> {
 }
 
 impl NearBoxes {
-    /// Makes the boxes of some kinds of elements, unless they are already of this version. Returns
-    /// false if interrupted.
+    /// Rims of the tree's nodes, of the version of the boxes.
+    pub(crate) fn rims(&self) -> &Rims {
+        &self.rims
+    }
+
+    /// Makes the boxes of some kinds of elements, unless they are already of the version of the
+    /// source, which grows by nothing. Returns false if interrupted.
     pub(crate) fn make<S: Coordinate>(
         &mut self,
         which: Which,
-        version: Version,
+        source: &Grown<S>,
         threads: (Instructions, Executor),
-        positions: Ends<S>,
-        (leaves, elements): (&Leaves, &Elements),
+        (tree, elements): (&Tree, &Elements),
     ) -> bool {
+        if !self.rims.make(tree, source, threads.1) {
+            return false;
+        }
+        let version = source.version();
+        let positions: Ends<S> = (&source.from, source.to.map(|end| end.positions));
+        let leaves = &tree.leaves;
         let runs = || (0..leaves.run_count() as u32).map(|number| leaves.run(number));
         match which {
             Which::VerticesAndTriangles => {
@@ -72,4 +83,4 @@ impl NearBoxes {
     }
 }
 
-held!(NearBoxes: vertices, triangles, edges);
+held!(NearBoxes: vertices, triangles, edges, rims);

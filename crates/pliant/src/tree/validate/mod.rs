@@ -53,8 +53,13 @@ impl Tree {
             );
             let triangles = self.triangles_below(node)?;
             let below = &corners[triangles.clone()];
+            let number = self.number_of(node);
+            let fan = self.fans().and_then(|fans| fans.of_node(number));
+            ensure!(
+                fan.is_none_or(|vertex| below.iter().all(|it| it.contains(&TreeVertex(vertex)))),
+                "{wide_node:?}, lane {lane}: not all triangles below it have the vertex of its fan"
+            );
             let below: BTreeSet<TreeVertex> = below.as_flattened().iter().copied().collect();
-            let number = self.wide_node(wide_node).first_node as usize + lane;
             let listed: BTreeSet<TreeVertex> = self.vertices.vertices(number).collect();
             ensure!(
                 listed == below,
@@ -96,7 +101,7 @@ impl Tree {
             let is_valid = boxes.holds(wide_node, version);
             ensure!(above || !is_valid, "{wide_node:?}: valid below a stale one");
             if is_valid {
-                let number = self.wide_node(wide_node).first_node as usize + lane;
+                let number = self.number_of(node);
                 let vertices: Vec<_> = self.vertices.vertices(number).collect();
                 let found = boxes.nodes().one(node);
                 let expected = source.plainly(vertices.into_iter());

@@ -27,70 +27,86 @@ fn shape<S: Scalar>(random: &mut Lcg, count: u32, of: fn(f32) -> S) -> Vec<[S; 3
     middles.into_iter().chain(rim).collect()
 }
 
+/// Numbers of two elements.
+type Pairs = Vec<[u32; 2]>;
+
+/// Lists by the reference at a radius: candidates, close pairs within twice that, impacts; of
+/// vertices and triangles, and of edges.
+fn expected<S: Scalar>(known: &Moving<S>, radius: f64) -> [[Pairs; 2]; 3] {
+    let timed = |list: Vec<([u32; 2], [f64; 2])>| list.into_iter().map(|it| it.0).collect();
+    let lists = [
+        [
+            reference::self_vertex_triangle_pairs(known, radius).unwrap(),
+            reference::self_edge_edge_pairs(known, radius).unwrap(),
+        ],
+        [
+            reference::self_close_vertex_triangle_pairs(known, 2.0 * radius).unwrap(),
+            reference::self_close_edge_edge_pairs(known, 2.0 * radius).unwrap(),
+        ],
+        [
+            timed(reference::self_vertex_triangle_impacts(known, 1.0).unwrap()),
+            timed(reference::self_edge_edge_impacts(known, 1.0).unwrap()),
+        ],
+    ];
+    let are_many = |which: usize| lists[which].iter().all(|list| list.len() > 60);
+    assert!(are_many(0) && (radius == 0.0 || are_many(1)));
+    assert!(known.end.is_none() || are_many(2));
+    lists
+}
+
+/// The same lists by a world.
+fn found<S: Scalar>(world: &mut World<S>, of: Selection, radius: f64) -> [[Pairs; 2]; 3] {
+    let of_vertices = |pair: VertexTriangle| [pair.vertex, pair.triangle];
+    let of_edges = |pair: EdgeEdge| [pair.edge_a, pair.edge_b];
+    macro_rules! list {
+        ($query:expr, $hit:ident => $pair:expr) => {
+            $query.all().unwrap().iter().map(|$hit| $pair).collect()
+        };
+    }
+    let distance = 2.0 * radius;
+    [
+        [
+            list!(world.vertex_triangle_candidates(of, radius), hit => of_vertices(*hit)),
+            list!(world.edge_edge_candidates(of, radius), hit => of_edges(*hit)),
+        ],
+        [
+            list!(world.close_vertex_triangle_pairs(of, distance), hit => of_vertices(hit.pair)),
+            list!(world.close_edge_edge_pairs(of, distance), hit => of_edges(hit.pair)),
+        ],
+        [
+            list!(world.vertex_triangle_impacts(of), hit => of_vertices(hit.pair)),
+            list!(world.edge_edge_impacts(of), hit => of_edges(hit.pair)),
+        ],
+    ]
+}
+
 fn check<S: Scalar>(of: fn(f32) -> S) {
     const COUNT: u32 = 160;
+    const RADII: [f64; 2] = [0.0, 0.01];
     let random = &mut Lcg(9);
     let triangles = mesh(COUNT);
     let shapes: Vec<Vec<[S; 3]>> = (0..3).map(|_| shape(random, COUNT, of)).collect();
-    let of_vertices = |pair: VertexTriangle| [pair.vertex, pair.triangle];
-    let of_edges = |pair: EdgeEdge| [pair.edge_a, pair.edge_b];
-    let configurations = covering_configurations();
     // The first shape stands still, the others move on to the next.
-    for (step, positions) in shapes.iter().enumerate() {
-        let end = (step > 0).then(|| &shapes[(step + 1) % 3][..]);
-        let known = Moving {
-            triangles: &triangles,
-            positions,
-            end,
-            groups: None,
-        };
-        for radius in [0.0, 0.01] {
-            let distance = 2.0 * radius;
-            let candidates = (
-                reference::self_vertex_triangle_pairs(&known, radius).unwrap(),
-                reference::self_edge_edge_pairs(&known, radius).unwrap(),
-            );
-            let close = (
-                reference::self_close_vertex_triangle_pairs(&known, distance).unwrap(),
-                reference::self_close_edge_edge_pairs(&known, distance).unwrap(),
-            );
-            let met = (
-                reference::self_vertex_triangle_impacts(&known, 1.0).unwrap(),
-                reference::self_edge_edge_impacts(&known, 1.0).unwrap(),
-            );
-            assert!(candidates.0.len() > 100 && candidates.1.len() > 100);
-            assert!(radius == 0.0 || close.0.len() > 20 && close.1.len() > 20);
-            assert!(end.is_none() || met.0.len() > 20 && met.1.len() > 20);
-            for &options in &configurations {
-                let mut world = World::<S>::with_options(options);
-                let body = world.add(&triangles, positions).unwrap();
-                let of = Selection::Within(body);
-                world.intersections(of).prepare().unwrap();
-                if let Some(end) = end {
-                    world.set_motion(body, end).unwrap();
-                }
-                let found = world.vertex_triangle_candidates(of, radius).all().unwrap();
-                let found: Vec<_> = found.iter().map(|&pair| of_vertices(pair)).collect();
-                assert_eq!(found, candidates.0, "{options:?}");
-                let found = world.edge_edge_candidates(of, radius).all().unwrap();
-                let found: Vec<_> = found.iter().map(|&pair| of_edges(pair)).collect();
-                assert_eq!(found, candidates.1, "{options:?}");
-                let found = world.close_vertex_triangle_pairs(of, distance).all();
-                let found: Vec<_> = found
-                    .unwrap()
-                    .iter()
-                    .map(|it| of_vertices(it.pair))
-                    .collect();
-                assert_eq!(found, close.0, "{options:?}");
-                let found = world.close_edge_edge_pairs(of, distance).all().unwrap();
-                let found: Vec<_> = found.iter().map(|it| of_edges(it.pair)).collect();
-                assert_eq!(found, close.1, "{options:?}");
-                let found = world.vertex_triangle_impacts(of).all().unwrap();
-                let found: Vec<_> = found.iter().map(|it| of_vertices(it.pair)).collect();
-                assert!(found.iter().eq(met.0.iter().map(|(pair, _)| pair)));
-                let found = world.edge_edge_impacts(of).all().unwrap();
-                let found: Vec<_> = found.iter().map(|it| of_edges(it.pair)).collect();
-                assert!(found.iter().eq(met.1.iter().map(|(pair, _)| pair)));
+    let end = |step: usize| (step > 0).then(|| &shapes[(step + 1) % 3][..]);
+    let known = (0..3).map(|step| Moving {
+        triangles: &triangles,
+        positions: &shapes[step],
+        end: end(step),
+        groups: None,
+    });
+    let known = known.map(|known| RADII.map(|radius| expected(&known, radius)));
+    let known: Vec<_> = known.collect();
+    for options in covering_configurations() {
+        let mut world = World::<S>::with_options(options);
+        let body = world.add(&triangles, &shapes[0]).unwrap();
+        for step in 0..3 {
+            world.set_positions(body, &shapes[step]).unwrap();
+            if let Some(end) = end(step) {
+                world.set_motion(body, end).unwrap();
+            }
+            for (radius, known) in RADII.into_iter().zip(&known[step]) {
+                let found = found(&mut world, Selection::Within(body), radius);
+                assert!(found == *known, "step {step}, {radius}, {options:?}");
                 world.validate().unwrap();
             }
         }

@@ -48,7 +48,7 @@ fn expected<S: Scalar>(known: &Moving<S>, radius: f64) -> [[Pairs; 2]; 3] {
             timed(reference::self_edge_edge_impacts(known, 1.0).unwrap()),
         ],
     ];
-    let are_many = |which: usize| lists[which].iter().all(|list| list.len() > 60);
+    let are_many = |which: usize| lists[which].iter().all(|list| list.len() > 40);
     assert!(are_many(0) && (radius == 0.0 || are_many(1)));
     assert!(known.end.is_none() || are_many(2));
     lists

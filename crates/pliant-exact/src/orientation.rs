@@ -173,16 +173,17 @@ impl Filtered {
         if determinant.abs() > RELATIVE_ERROR * magnitude + self.underflow * reach {
             return Some(sign_of(determinant));
         }
-        let are_two_one = are_one(a, b) || are_one(b, c) || are_one(c, a);
-        (are_two_one || [a, b, c].into_iter().any(|it| are_one(it, point))).then_some(0)
+        are_two_one([a, b, c, point]).then_some(0)
     }
 }
 
-/// Whether two points have the same bits: a thread that flushes subnormal numbers compares no
-/// others.
-#[inline]
-fn are_one(p: &Point, q: &Point) -> bool {
-    p.map(f64::to_bits) == q.map(f64::to_bits)
+/// Whether two of four points have the same bits: a thread that flushes subnormal numbers compares
+/// no others.
+#[cold]
+fn are_two_one([a, b, c, d]: [&Point; 4]) -> bool {
+    let are_one = |p: &Point, q: &Point| p.map(f64::to_bits) == q.map(f64::to_bits);
+    let within = are_one(a, b) || are_one(b, c) || are_one(c, a);
+    within || [a, b, c].into_iter().any(|it| are_one(it, d))
 }
 
 impl Orientation for Filtered {

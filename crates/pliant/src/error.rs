@@ -149,6 +149,13 @@ pub enum ErrorKind {
         /// How many numbers of vertices there are.
         vertices: usize,
     },
+    /// A list names an edge that the body does not have.
+    NoSuchEdge {
+        /// The edge.
+        edge: u32,
+        /// How many edges there are.
+        edges: usize,
+    },
     /// An edit names a vertex that is gone, because no triangle used it any more.
     EmptyVertex {
         /// The vertex.
@@ -342,6 +349,11 @@ impl ErrorKind {
                 f,
                 "the edit names vertex {vertex}, but there are {vertices} vertices (counted from \
                  0); name one that is there"
+            ),
+            Self::NoSuchEdge { edge, edges } => write!(
+                f,
+                "the list names edge {edge}, but there are {edges} edges (counted from 0); ask again, \
+                 for the mesh was changed"
             ),
             Self::EmptyVertex { vertex } => write!(
                 f,

@@ -116,6 +116,7 @@ mod collide;
 mod curves;
 mod edit;
 mod error;
+mod feature_pairs;
 mod geometry;
 mod held;
 mod ids;
@@ -137,6 +138,7 @@ pub use changes::{Changed, Changes, Ended, Listed, Thing};
 pub use curves::{Curve, CurveEnd, Curves, Segment, Segments, Step};
 pub use edit::{Edit, Edited};
 pub use error::{Error, ErrorKind};
+pub use feature_pairs::{FeaturePair, FeaturePairs};
 pub use ids::BodyId;
 #[doc(hidden)]
 pub use kernels::Instructions;

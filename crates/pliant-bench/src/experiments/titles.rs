@@ -88,7 +88,7 @@ pub(super) const DEGENERATE: Title = Title {
 
 pub(super) const SHAPES: Title = Title {
     name: "shapes",
-    about: "long thin triangles: fans, strips and tubes, beside good ones",
+    about: "long thin triangles, planes in common, very many at a vertex",
     with_peers: false,
 };
 

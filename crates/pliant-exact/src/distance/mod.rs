@@ -6,13 +6,16 @@
 //! distance has an error of a few units in the last place, however small it is. The features are
 //! known from minimum-distance tests (Ericson 2005, chapter 5); here they are compared exactly.
 
+mod features;
 mod triangles;
 
+use super::Feature::{self, Corner, Edge, Inside};
 use super::float::{power, scaled};
 use super::integer::{Integer, in_proportion, parts, powers_of_all, quotient};
 use super::ring::Ring;
 use super::vector::{Vector, cross, dot, in_units, minus};
 use super::{Point, denormals_are_kept};
+pub use features::closest_features;
 pub use triangles::point_in_common;
 pub use triangles::{SomePoints, TrianglesClosest, are_triangles_within, closest_triangles};
 
@@ -44,6 +47,7 @@ struct Feet {
     along: [f64; 2],
     /// The way from the second to the first, of any length; where they touch, any.
     way: Vector,
+    features: [Feature; 2],
 }
 
 /// Distances that are larger are all the same: no two points are further apart.
@@ -194,64 +198,73 @@ fn feet(elements: &Primitives, unit: i32, found: &mut dyn FnMut(Feet)) {
     match elements {
         Primitives::VertexTriangle(_) => {
             let [a, b, c] = [q, r, s];
-            of_end(&p, &a, &b, |along| [along, 0.0], false, found);
-            of_end(&p, &a, &c, |along| [0.0, along], false, found);
+            let on =
+                |from, edge, to| [Corner(from), Edge(edge), Corner(to)].map(|on| [Corner(0), on]);
+            of_end(&p, &a, &b, |along| [along, 0.0], on(0, 0, 1), false, found);
+            of_end(&p, &a, &c, |along| [0.0, along], on(0, 2, 2), false, found);
             // Of x and 1 - x the sum is 1 exactly: the first corner counts nothing.
             let from_b = |along: f64| [1.0 - along, 1.0 - (1.0 - along)];
-            of_end(&p, &b, &c, from_b, false, found);
+            of_end(&p, &b, &c, from_b, on(1, 1, 2), false, found);
             let (e1, e2, t) = (minus(&b, &a), minus(&c, &a), minus(&p, &a));
             let n = cross(&e1, &e2);
             of_insides(
                 &n,
                 &t,
                 &[dot(&cross(&t, &e2), &n), dot(&cross(&e1, &t), &n)],
-                true,
+                [Corner(0), Inside],
                 found,
             );
         }
         Primitives::EdgeEdge(_) => {
             let [a0, a1, b0, b1] = [p, q, r, s];
-            of_end(&a0, &b0, &b1, |along| [0.0, along], false, found);
-            of_end(&a1, &b0, &b1, |along| [1.0, along], false, found);
-            of_end(&b0, &a0, &a1, |along| [along, 0.0], true, found);
-            of_end(&b1, &a0, &a1, |along| [along, 1.0], true, found);
+            let on_b = |end| EDGE.map(|on| [Corner(end), on]);
+            let on_a = |end| EDGE.map(|on| [on, Corner(end)]);
+            of_end(&a0, &b0, &b1, |along| [0.0, along], on_b(0), false, found);
+            of_end(&a1, &b0, &b1, |along| [1.0, along], on_b(1), false, found);
+            of_end(&b0, &a0, &a1, |along| [along, 0.0], on_a(0), true, found);
+            of_end(&b1, &a0, &a1, |along| [along, 1.0], on_a(1), true, found);
             let (e, f, t) = (minus(&a1, &a0), minus(&b1, &b0), minus(&a0, &b0));
             let n = cross(&e, &f);
             let along = [dot(&cross(&t, &f), &n), dot(&cross(&t, &e), &n)].map(Integer::negated);
-            of_insides(&n, &t, &along, false, found);
+            of_insides(&n, &t, &along, [Edge(0); 2], found);
         }
     }
 }
 
-/// A point and a segment from a to b, which may be a point. `is_second`: the point is of the second
-/// element.
+/// Features of an edge, from its start to its end.
+const EDGE: [Feature; 3] = [Corner(0), Edge(0), Corner(1)];
+
+/// A point and a segment from a to b, which may be a point. `features` are both at its start,
+/// inside, and at its end. `is_second`: the point is of the second element.
 fn of_end(
     p: &Vector,
     a: &Vector,
     b: &Vector,
     along: impl Fn(f64) -> [f64; 2],
+    features: [[Feature; 2]; 3],
     is_second: bool,
     found: &mut dyn FnMut(Feet),
 ) {
     let (e, t) = (minus(b, a), minus(p, a));
     let (whole, part) = (dot(&e, &e), dot(&t, &e));
     let one = Integer::from(1);
-    let (over, under, way, at) = if part.sign() <= 0 {
-        (dot(&t, &t), one, t, 0.0)
+    let (over, under, way, at, place) = if part.sign() <= 0 {
+        (dot(&t, &t), one, t, 0.0, 0)
     } else if whole.is_at_most(&part) {
         let t = minus(p, b);
-        (dot(&t, &t), one, t, 1.0)
+        (dot(&t, &t), one, t, 1.0, 2)
     } else {
         let area = cross(&t, &e);
         let way = std::array::from_fn(|i| t[i].times(&whole).minus(&e[i].times(&part)));
         let along = fraction(&part, &whole);
-        (dot(&area, &area), whole, way, along)
+        (dot(&area, &area), whole, way, along, 1)
     };
     found(Feet {
         over,
         under,
         along: along(at),
         way: turned(way, is_second),
+        features: features[place],
     });
 }
 
@@ -261,7 +274,7 @@ fn of_insides(
     n: &Vector,
     t: &Vector,
     [p, q]: &[Integer; 2],
-    is_triangle: bool,
+    features: [Feature; 2],
     found: &mut dyn FnMut(Feet),
 ) {
     let whole = dot(n, n);
@@ -269,7 +282,7 @@ fn of_insides(
     if whole.is_zero()
         || !is_inside(p)
         || !is_inside(q)
-        || is_triangle && !p.plus(q).is_at_most(&whole)
+        || features[1] == Inside && !p.plus(q).is_at_most(&whole)
     {
         return;
     }
@@ -279,6 +292,7 @@ fn of_insides(
         way: turned(n.clone(), height.sign() < 0),
         along: [fraction(p, &whole), fraction(q, &whole)],
         under: whole,
+        features,
     });
 }
 

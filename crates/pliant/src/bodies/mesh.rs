@@ -197,6 +197,12 @@ impl<S: Coordinate> BodyMesh<S> {
         self.elements(&|| false).map_or(&[], Elements::callers)
     }
 
+    /// Edges of a triangle, from each corner to the next. None where the two are one vertex.
+    pub(crate) fn sides(&self, triangle: u32) -> [Option<u32>; 3] {
+        let elements = self.elements(&|| false);
+        elements.map_or([None; 3], |it| it.sides(&self.topology, triangle))
+    }
+
     /// Edges, if they have numbers that stay.
     pub(crate) fn numbered_edges(&self) -> Option<&[[u32; 2]]> {
         self.edges_are_known().then(|| self.edges())

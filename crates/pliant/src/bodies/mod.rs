@@ -32,5 +32,5 @@ pub(crate) use body::Body;
 pub(crate) use checks::validate;
 pub use debug_view::{NodeBox, TreeShape};
 pub(crate) use list::Bodies;
-pub(crate) use mesh::Places;
+pub(crate) use mesh::{BodyMesh, Places};
 pub(crate) use rebuild::Work;

@@ -1,9 +1,8 @@
 //! Segments: where each pair of a list meets.
 
-use crate::error::{Error, ErrorKind};
-use crate::ids::BodyId;
+use crate::error::Error;
 use crate::queries::Pair;
-use crate::world::{Scalar, World};
+use crate::world::{NamedBodies, Scalar, World};
 use pliant_exact::{End, Point, Precision, intersection};
 use std::ops::Range;
 
@@ -78,8 +77,9 @@ impl Segments {
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](ErrorKind::NoSuchBody), [`NoSuchTriangle`](ErrorKind::NoSuchTriangle),
-    /// [`EmptyTriangle`](ErrorKind::EmptyTriangle).
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody),
+    /// [`NoSuchTriangle`](crate::ErrorKind::NoSuchTriangle),
+    /// [`EmptyTriangle`](crate::ErrorKind::EmptyTriangle).
     pub fn update<S: Scalar, P: Copy + Into<Pair>>(
         &mut self,
         world: &World<S>,
@@ -102,7 +102,7 @@ impl Segments {
     ) -> Result<(), Error> {
         let pairs = pairs.iter().map(|&pair| pair.into());
         let named = pairs.clone().flat_map(|pair| [pair.body_a, pair.body_b]);
-        let bodies = Bodies::of(world, named)?;
+        let bodies = NamedBodies::of(world, named)?;
         for pair in pairs {
             let of = [
                 (pair.body_a, pair.triangle_a),
@@ -112,8 +112,8 @@ impl Segments {
             let mut corners = [[[0.0; 3]; 3]; 2];
             for side in 0..2 {
                 let (body, triangle) = of[side];
-                vertices[side] = bodies.vertices(body, triangle)?;
-                corners[side] = bodies.corners(body, vertices[side]);
+                vertices[side] = bodies.corners(body, triangle)?;
+                corners[side] = bodies.points(body, vertices[side])?;
             }
             let [a, b] = &corners;
             let both = intersection(Precision::Double, a, b);
@@ -169,54 +169,6 @@ impl Segments {
     /// Ends of all pairs, one pair after the other.
     pub fn ends(&self) -> &[End] {
         &self.ends
-    }
-}
-
-/// Meshes and positions of the bodies that pairs name, in order of their ids.
-struct Bodies<'w, S> {
-    ids: Vec<BodyId>,
-    shapes: Vec<(&'w [[u32; 3]], Vec<[S; 3]>)>,
-}
-
-impl<'w, S: Scalar> Bodies<'w, S> {
-    fn of(world: &'w World<S>, named: impl Iterator<Item = BodyId>) -> Result<Self, Error> {
-        let mut ids: Vec<BodyId> = Vec::new();
-        // Lists mostly name a body many times in a row.
-        for id in named {
-            if !ids.iter().rev().take(2).any(|&last| last == id) {
-                ids.push(id);
-            }
-        }
-        ids.sort_unstable();
-        ids.dedup();
-        let shape = |&id: &BodyId| Ok((world.triangles(id)?, world.positions(id)?));
-        let shapes = ids.iter().map(shape).collect::<Result<_, Error>>()?;
-        Ok(Self { ids, shapes })
-    }
-
-    fn place(&self, body: BodyId) -> usize {
-        self.ids.partition_point(|&id| id < body)
-    }
-
-    fn vertices(&self, body: BodyId, triangle: u32) -> Result<[u32; 3], Error> {
-        let (triangles, _) = &self.shapes[self.place(body)];
-        let refused = |kind| Error {
-            body: Some(body),
-            kind,
-        };
-        match triangles.get(triangle as usize) {
-            None => Err(refused(ErrorKind::NoSuchTriangle {
-                triangle,
-                triangles: triangles.len(),
-            })),
-            Some(&[u32::MAX, ..]) => Err(refused(ErrorKind::EmptyTriangle { triangle })),
-            Some(&vertices) => Ok(vertices),
-        }
-    }
-
-    fn corners(&self, body: BodyId, vertices: [u32; 3]) -> [Point; 3] {
-        let (_, positions) = &self.shapes[self.place(body)];
-        vertices.map(|vertex| positions[vertex as usize].map(Scalar::to_f64))
     }
 }
 

@@ -163,14 +163,14 @@ pub(crate) fn expand(
         tree: trees[0].tree,
         grown_by: trees[0].boxes.grown_by(),
     });
+    let is_culled = rims.is_some() || capsules.iter().any(Option::is_some);
     of_degree!([trees[0].boxes.nodes(), trees[1].boxes.nodes()], boxes => {
-        let all = [0, 1].map(|which| NodeVolumes {
+        let volumes = is_culled.then(|| [0, 1].map(|which| NodeVolumes {
             boxes: boxes[which],
             capsules: capsules[which],
             rims,
-        });
-        let is_culled = rims.is_some() || capsules.iter().any(Option::is_some);
-        let volumes = is_culled.then_some(&all);
+        }));
+        let volumes = volumes.as_ref();
         dispatch!(instructions, i => if is_itself {
             expand_all::<_, _, true>(i, of, boxes, volumes, batch, left_out, found);
         } else {
@@ -198,7 +198,6 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
     } = found;
     *node_pairs += batch.len() as u64;
     let (nodes_a, nodes_b) = (a.nodes(), b.nodes());
-    let fans = a.fans().filter(|_| left_out.is_some());
     for &[node_a, node_b] in batch {
         match (nodes_a.child(node_a), nodes_b.child(node_b)) {
             (Child::Leaf(leaf_a), Child::Leaf(leaf_b)) => {
@@ -231,7 +230,9 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
                     .push_bits(mask, |lane| [NodeId::new(below, lane as usize), node_b]);
             }
             (Child::Inner(below_a), Child::Inner(below_b)) => {
-                if fans.is_some_and(|fans| fans.are_one(a, node_a, node_b)) {
+                if let Some(fans) = left_out.and_then(Neighbours::fans)
+                    && fans.are_one([node_a, node_b].map(|node| nodes_a.number_of(node)))
+                {
                     continue;
                 }
                 let (wide_a, wide_b) = (nodes_a.wide(below_a), nodes_b.wide(below_b));

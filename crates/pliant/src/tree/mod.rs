@@ -19,7 +19,7 @@ mod validate;
 mod vertex_sets;
 mod wide_node;
 
-use crate::held::{self, held};
+use crate::held::{self, Held, held};
 use crate::ids::{NodeId, TreeTriangle, TreeVertex, WideNodeId};
 use crate::mesh::Order;
 use crate::threads::{Budget, Executor};
@@ -33,6 +33,7 @@ use fans::Fans;
 pub(crate) use leaves::{BLOCK_LANES, FirstsOfBlocks, Leaves};
 pub(crate) use neighbours::{Neighbours, NeighboursBuilder, STRICT_UPPER};
 pub(crate) use rims::Rims;
+use std::sync::Arc;
 pub(crate) use vertex_sets::VertexSets;
 use vertex_sets::VertexSetsBuilder;
 pub(crate) use wide_node::{Child, WideNode};
@@ -55,7 +56,7 @@ pub(crate) struct Tree {
     /// bodies never do.
     neighbours: Option<Box<Neighbours>>,
     /// Fans. Found when the body first meets itself, if many triangles may share a vertex.
-    fans: Option<Box<Fans>>,
+    fans: Option<Arc<Fans>>,
     /// Most children of a node: 2, 4 or 8.
     degree: usize,
     /// Whether many of the triangles are long and thin.
@@ -117,18 +118,21 @@ impl Tree {
 
     /// Finishes the table of neighbours and keeps it.
     pub(crate) fn take_neighbours(&mut self, neighbours: NeighboursBuilder, order: &Order) {
-        let neighbours = neighbours.finish(&self.wide_nodes, &self.leaves);
+        let mut neighbours = neighbours.finish(&self.wide_nodes, &self.leaves);
         if neighbours.is_any_crowded() {
-            self.know_fans(order);
+            neighbours.take_fans(self.know_fans(order));
         }
         self.neighbours = Some(Box::new(neighbours));
     }
 
     /// Finds the fans, unless they are known.
-    pub(crate) fn know_fans(&mut self, order: &Order) {
-        if self.fans.is_none() {
-            self.fans = Some(Box::new(Fans::new(self, order)));
-        }
+    pub(crate) fn know_fans(&mut self, order: &Order) -> Arc<Fans> {
+        let fans = match self.fans.take() {
+            Some(known) => known,
+            None => Arc::new(Fans::new(&self.wide_nodes, &self.leaves, order)),
+        };
+        self.fans = Some(fans.clone());
+        fans
     }
 
     /// Returns the fans, if they are known.
@@ -169,8 +173,7 @@ impl Tree {
     /// Returns the number of a node, counted level by level: its place in `VertexSets`.
     #[inline(always)]
     fn number_of(&self, node: NodeId) -> usize {
-        let (wide_node, lane) = node.wide_node_and_lane();
-        self.wide_node(wide_node).first_node as usize + lane
+        self.nodes().number_of(node)
     }
 
     /// Iterates over the nodes in a wide node.
@@ -280,7 +283,14 @@ impl<'t> Nodes<'t> {
         let (wide_node, lane) = node.wide_node_and_lane();
         self.wide(wide_node).child(lane)
     }
+
+    /// Returns the number of a node, counted level by level: its place in `VertexSets`.
+    #[inline(always)]
+    fn number_of(self, node: NodeId) -> usize {
+        let (wide_node, lane) = node.wide_node_and_lane();
+        self.wide(wide_node).first_node as usize + lane
+    }
 }
 
 held!(Tree: wide_nodes[], level_starts[], vertices, leaves;
-    |tree| held::boxes(&tree.neighbours) + held::boxes(&tree.fans));
+    |tree| held::boxes(&tree.neighbours) + tree.fans().map_or(0, Held::held));

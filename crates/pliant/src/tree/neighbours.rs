@@ -8,6 +8,7 @@
 //! neighbours are *crowded* and have no list, for masks would take memory by the square
 //! ([`Neighbours::is_crowded`]).
 
+use super::fans::Fans;
 use super::lanes_at_vertices::LanesAtVertices;
 use super::{BLOCK_LANES, Leaves, WideNode};
 use crate::held::held;
@@ -16,6 +17,7 @@ use crate::kernels::{Simd, find_lane};
 use crate::mesh::Order;
 use crate::threads::Budget;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Most later neighbours of a block that is not crowded. On a surface there are about five.
 const MOST_NEIGHBOURS: usize = 32;
@@ -114,7 +116,8 @@ pub(crate) struct Neighbours {
     /// For each wide node of leaves that are blocks: the pairs of leaves that are neighbours and
     /// not crowded. A leaf is its own neighbour.
     of_wide_nodes: LaneLists,
-    is_any_crowded: bool,
+    /// Fans, if any block is crowded. The tree has them too.
+    fans: Option<Arc<Fans>>,
 }
 
 impl Neighbours {
@@ -141,7 +144,19 @@ impl Neighbours {
 
     /// Whether any block is crowded.
     pub(super) fn is_any_crowded(&self) -> bool {
-        self.is_any_crowded
+        let blocks = self.of_blocks.starts.len() - 1;
+        (0..blocks as u32).any(|block| self.is_crowded(BlockId(block)))
+    }
+
+    /// Takes the fans of the tree.
+    pub(super) fn take_fans(&mut self, fans: Arc<Fans>) {
+        self.fans = Some(fans);
+    }
+
+    /// Returns the fans, if any block is crowded.
+    #[inline(always)]
+    pub(super) fn fans(&self) -> Option<&Fans> {
+        self.fans.as_deref()
     }
 
     /// Returns a block and its later neighbours, with the mask of triangle pairs to compare with
@@ -294,9 +309,8 @@ impl NeighboursBuilder {
         // It is as large as the lists, and no longer needed.
         drop(self.at_vertices);
         let wide_nodes = if leaves.are_blocks() { wide_nodes } else { &[] };
-        let is_crowded = |block: u32| of_blocks.list(block).is_empty();
         Neighbours {
-            is_any_crowded: (0..leaves.block_count() as u32).any(is_crowded),
+            fans: None,
             of_wide_nodes: lists_of_wide_nodes(wide_nodes, leaves, &of_blocks),
             of_blocks,
         }

@@ -91,16 +91,14 @@ pub(super) struct GrownRims<'t> {
 impl GrownRims<'_> {
     /// Whether two nodes with these boxes are of one fan, and neither rim meets the other's box.
     pub(super) fn leave_out(self, nodes: [NodeId; 2], boxes: [Aabb; 2]) -> bool {
-        let tree = self.tree;
-        let are_one = tree
-            .fans()
-            .is_some_and(|fans| fans.are_one(tree, nodes[0], nodes[1]));
-        let meets = |node, other: &Aabb| {
+        let nodes = nodes.map(|node| self.tree.number_of(node));
+        let fans = self.tree.fans();
+        let meets = |which: usize, other: &Aabb| {
             // An empty rim grows to NaN, which overlaps nothing.
-            let rim = self.rims.boxes[tree.number_of(node)].grown(self.grown_by);
+            let rim = self.rims.boxes[nodes[which]].grown(self.grown_by);
             rim.overlaps(other)
         };
-        are_one && !meets(nodes[0], &boxes[1]) && !meets(nodes[1], &boxes[0])
+        fans.is_some_and(|fans| fans.are_one(nodes)) && !meets(0, &boxes[1]) && !meets(1, &boxes[0])
     }
 }
 

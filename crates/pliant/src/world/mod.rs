@@ -36,6 +36,7 @@ mod looking;
 mod writing;
 
 mod kept;
+mod named;
 mod query;
 mod scalar;
 mod state;
@@ -46,6 +47,7 @@ pub use handle::World;
 pub use interruptible::Interruptible;
 pub use kinds::impacts::pairs::{edge_edge_impacts, pair_impacts, vertex_triangle_impacts};
 pub(crate) use kinds::reference;
+pub(crate) use named::NamedBodies;
 pub use pieces::{Fused, Piece};
 pub use query::Query;
 pub use scalar::Scalar;

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A folder, or a file of the crate's root, and the folders that it may use.
-const LAYERS: [(&str, &[&str]); 24] = [
+const LAYERS: [(&str, &[&str]); 25] = [
     ("held", &[]),
     ("ids", &[]),
     ("options", &[]),
@@ -140,6 +140,7 @@ const LAYERS: [(&str, &[&str]); 24] = [
     ),
     ("changes", &["ids", "edit", "queries", "world"]),
     ("curves", &["ids", "error", "queries", "world"]),
+    ("feature_pairs", &["ids", "error", "queries", "world"]),
     ("lib", &[]),
 ];
 

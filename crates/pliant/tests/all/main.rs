@@ -27,6 +27,7 @@ mod edits;
 mod edits_refused;
 mod every_kind;
 mod fans;
+mod feature_pairs;
 mod figure_2;
 mod first_impact;
 mod flush_to_zero;

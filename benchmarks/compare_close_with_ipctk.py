@@ -21,6 +21,10 @@ rounding explains are counted as *ties*:
 - pairs within 1e-9 of the limit (ipctk takes pairs nearer than that, we take pairs up to it);
 - pairs for which ipctk has other features at an equal distance, within 1e-9.
 
+Then the contacts of `pliant.feature_pairs`, each once, must be ipctk's features. Differences are
+explained by a pair of which both have features at its distance, and counted as *others*: edges that
+are nearly parallel stay edges in ipctk, and rounding decides ties there.
+
 Every other difference is an error, and the exit code is 1. Then rounds are played in turn. The
 figure is the median, over rounds, of ipctk's time over ours. Our lists are sorted, ipctk's are not.
 """
@@ -56,11 +60,27 @@ class Ours:
             self.world.close_edge_edge_pairs(every, distance).all(),
         )
 
-    def pairs(self, bodies, found):
-        """Vertices of both elements of each pair, numbered in the joint mesh, and their weights."""
+    def places(self):
+        """The place of each body, by its number."""
         place = numpy.zeros(int(max(self.ids)) + 1, dtype=numpy.int64)
         for at, body in enumerate(self.ids):
             place[int(body)] = at
+        return place
+
+    def contacts(self, bodies, distance):
+        """Names of the contacts, with vertices numbered in the joint mesh."""
+        every = pliant.Selection.EVERYTHING
+        found = pliant.feature_pairs(self.world, every, distance)
+        first = bodies.first_vertex[self.places()[found.bodies.astype(numpy.int64)]]
+        # How many of the vertices are of the first feature, by kind.
+        of_first = numpy.array([1, 1, 2, 1])[found.kind]
+        for kinds, rows, (a, b) in zip(of_first.tolist(), found.vertices.tolist(), first.tolist()):
+            rest = [vertex for vertex in rows[kinds:] if vertex != 0xFFFFFFFF]
+            yield Features.name([a + it for it in rows[:kinds]], [b + it for it in rest])
+
+    def pairs(self, bodies, found):
+        """Vertices of both elements of each pair, numbered in the joint mesh, and their weights."""
+        place = self.places()
         edges = [
             self.world.edges(body).astype(numpy.int64) + bodies.first_vertex[at]
             for at, body in enumerate(self.ids)
@@ -205,17 +225,40 @@ def compare_sets(bodies, ours, found, theirs, shape, limit):
     return ties, errors, len(its)
 
 
+def compare_contacts(bodies, ours, found, theirs, shape, limit):
+    """Number of our contacts, of differences that are explained, and of others."""
+    names = Features(bodies)
+    its, own = names.theirs(theirs.features()), set(ours.contacts(bodies, limit))
+    different = own ^ its
+    left = set(different)
+    for pairs in ours.pairs(bodies, found):
+        for whole, _, distance in names.ours(pairs):
+            some = set(parts(whole)) | {whole}
+            if not left & some:
+                continue
+            near = {
+                part
+                for part in some & (own | its)
+                if abs(apart(shape, part) - distance) <= TIE * limit
+            }
+            if near & own and near & its or abs(distance - limit) <= TIE * limit:
+                left -= some
+    return len(own), len(different) - len(left), len(left)
+
+
 def compare(bodies, margin, rounds):
     distance = margin * bodies.mean_edge
     turns = [(bodies.steps[turn], bodies.together(turn)) for turn in (0, 1)]
     ours, theirs = Ours(bodies), Theirs(bodies)
-    ties, errors, pairs, kept = 0, 0, 0, 0
+    ties, errors, pairs, kept, once, others = 0, 0, 0, 0, 0, 0
     for separate, together in turns:
         found = ours.ask(separate, distance)
         theirs.ask(together, distance)
         pairs += sum(len(of_kind.pairs) for of_kind in found)
         counts = compare_sets(bodies, ours, found, theirs, together, distance)
         ties, errors, kept = ties + counts[0], errors + counts[1], kept + counts[2]
+        counts = compare_contacts(bodies, ours, found, theirs, together, distance)
+        once, others, errors = once + counts[0], others + counts[1], errors + counts[2]
     times = []
     for _ in range(rounds):
         pair = [0.0, 0.0]
@@ -233,7 +276,8 @@ def compare(bodies, margin, rounds):
     factor = f"{statistics.median(ratios):5.2f} ({min(ratios):.2f} to {max(ratios):.2f})"
     what = f"margin {margin:g}"
     line = (
-        f"{bodies.name:<24} {what:<11} {pairs // 2:>10,} {kept // 2:>10,} {ties:>7,} {errors:>7}"
+        f"{bodies.name:<24} {what:<11} {pairs // 2:>10,} {kept // 2:>10,} {ties:>7,} {once // 2:>10,} {others:>7,}"
+        f" {errors:>7}"
         f" {own:>9.2f} {other:>9.2f}   {factor}"
     )
     print(line, flush=True)
@@ -243,7 +287,8 @@ def compare(bodies, margin, rounds):
 def main():
     arguments = arguments_of(__doc__, 9)
     head = (
-        f"{'':<24} {'':<11} {'pairs':>10} {'features':>10} {'ties':>7} {'errors':>7}"
+        f"{'':<24} {'':<11} {'pairs':>10} {'features':>10} {'ties':>7} {'contacts':>10} {'others':>7}"
+        f" {'errors':>7}"
         f" {'ours, ms':>9} {'its, ms':>9}   times faster"
     )
     print(head)

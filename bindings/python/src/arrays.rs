@@ -194,6 +194,44 @@ pub(crate) fn numbers(given: &Any<'_>, [name, what]: [&str; 2]) -> Result<Vec<u3
     rows.iter().map(number).collect()
 }
 
+/// Copies edges (k, 2) and points (k,), of any integer type, as the triangles that they are: an edge
+/// has its second end twice, a point its vertex three times. Vertices are below `vertices`.
+pub(crate) fn edges_and_points(
+    [edges, points]: [Option<&Any<'_>>; 2],
+    vertices: usize,
+) -> Result<Vec<[u32; 3]>> {
+    let is_wide = |shape: &[usize]| matches!(shape, [_, 2] | [0]);
+    let mut triangles = Vec::new();
+    if let Some(edges) = edges {
+        let array = as_numpy(edges, "edges")?;
+        if !is_wide(array.shape()) {
+            let shape = array.shape();
+            return Err(refused!(BadArray:
+                "edges have shape {shape:?}; they must be (k, 2), two vertices a row"));
+        }
+        let flat = array.call_method1(intern!(edges.py(), "reshape"), (-1,))?;
+        let ends = numbers(&flat, ["edges", "the numbers of their vertices"])?;
+        triangles.extend(ends.as_chunks().0.iter().map(|&[a, b]| [a, b, b]));
+    }
+    let edge_count = triangles.len();
+    if let Some(points) = points {
+        let points = numbers(points, ["points", "the numbers of their vertices"])?;
+        triangles.extend(points.into_iter().map(|vertex| [vertex; 3]));
+    }
+    for (row, corners) in triangles.iter().enumerate() {
+        if let Some(vertex) = corners.iter().find(|&&vertex| vertex as usize >= vertices) {
+            let (name, row) = match row.checked_sub(edge_count) {
+                None => ("edges", row),
+                Some(row) => ("points", row),
+            };
+            return Err(refused!(BadArray:
+                "row {row} of {name} names vertex {vertex}, but there are {vertices} positions \
+                 (counted from 0)"));
+        }
+    }
+    Ok(triangles)
+}
+
 /// Copies a (k, 4, 3) array of float32 or float64: four corners of each pair of elements.
 pub(crate) fn pairs_of_elements(given: &Any<'_>) -> Result<Vec<[[f64; 3]; 4]>> {
     let py = given.py();

@@ -158,6 +158,7 @@ impl From<pliant::Error> for Refused {
             NoSuchTriangle { triangle, triangles }
             EmptyTriangle { triangle }
             NoSuchVertex { vertex, vertices }
+            NoSuchEdge { edge, edges }
             EmptyVertex { vertex }
             VertexInUse { vertex }
             NotACorner { triangle, vertex }

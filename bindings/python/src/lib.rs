@@ -22,6 +22,7 @@
 //! | `queries/impacts.rs` | `ImpactQuery`: which elements meet during a motion, and when |
 //! | `world.rs` | `World`, method by method |
 //! | `curves.rs` | segments and curves in which listed pairs meet |
+//! | `feature_pairs.rs` | each contact of close elements once |
 //! | `pair_impacts.rs` | times of impact of single pairs of elements |
 //! | `one_liners.rs` | intersections of meshes in one call, and `pliant.reference` |
 //! | `usd.rs` | USD files, which Python evaluates |
@@ -40,6 +41,7 @@ mod copies;
 mod curves;
 mod edit;
 mod error;
+mod feature_pairs;
 mod one_liners;
 mod options;
 mod pair_impacts;
@@ -63,6 +65,7 @@ mod _pliant {
         check::{Check, check},
         curves::{curves, segments},
         edit::Edit,
+        feature_pairs::feature_pairs,
         one_liners::{
             intersection_pairs, reference_intersection_pairs, reference_self_intersection_pairs,
             self_intersection_pairs,

@@ -14,11 +14,13 @@ use crate::queries::pairs::{Pairs, Query};
 use crate::selection::{Body, Selection};
 use crate::signals::interruptible;
 use crate::state::{Corners, Shared, State};
+use numpy::PyArray2;
 use pliant::{BodyId, Impact, InContact, NodeBox};
 use pliant_check::with_world;
 use pliant_io::{Positions, Precision};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
+use std::borrow::Cow;
 
 /// Deforming triangle meshes, and exact answers about what of them meets or is near.
 ///
@@ -209,6 +211,14 @@ impl World {
     /// - faces: (m, 3) of any integer type, the corners of each triangle, counted from 0
     /// - positions: (n, 3) float32 or float64; float32 is widened in a float64 world
     ///
+    /// - edges: (k, 2) of any integer type, edges that are of no triangle: rods, cables, nets
+    /// - points: (k,) of any integer type, vertices that collide as points
+    ///
+    /// An edge is the triangle of its ends in which the second is twice, and a point that of one
+    /// vertex. They are numbered behind the triangles, edges first, and every question answers for
+    /// them as for triangles. Where there are no triangles, faces are None. A vertex that nothing
+    /// names collides with nothing.
+    ///
     /// One mesh object takes the place of both: .faces (or .triangles, as in Open3D) and .vertices
     /// are read. The tree is built on these positions; a rest pose is best. A degenerate triangle
     /// is the segment or point that it is. Vertices without triangles are allowed. Nothing is
@@ -218,12 +228,26 @@ impl World {
     /// NeedsSubnormals, TooLarge above 2^28 triangles or 2^32 - 1 vertices, TooManyBodies.
     ///
     /// Cost: O(m log m) with partition="balanced", else O(m) for each level of the tree.
-    #[pyo3(signature = (faces, positions=None))]
-    fn add(&self, py: Python<'_>, faces: &Any<'_>, positions: Option<&Any<'_>>) -> Result<u32> {
-        let mesh = mesh_of(faces, positions, None)?;
+    #[pyo3(signature = (faces, positions=None, *, edges=None, points=None))]
+    fn add<'py>(
+        &self,
+        py: Python<'py>,
+        faces: Option<&Any<'py>>,
+        positions: Option<&Any<'py>>,
+        edges: Option<&Any<'py>>,
+        points: Option<&Any<'py>>,
+    ) -> Result<u32> {
+        let none = PyArray2::<u32>::zeros(py, [0, 3], false);
+        let mesh = mesh_of(faces.unwrap_or(none.as_any()), positions, None)?;
         let (faces, positions) = mesh.get()?;
+        let others = arrays::edges_and_points([edges, points], positions.len())?;
+        let all: Cow<[[u32; 3]]> = if others.is_empty() {
+            faces.into()
+        } else {
+            [faces, &others].concat().into()
+        };
         self.state.with(py, |state| {
-            let added = state.add(faces, positions);
+            let added = state.add(&all, positions);
             Ok(added.map_err(|refused| refused.of_body(None))?.0)
         })
     }

@@ -137,3 +137,60 @@ def test_only_what_touches_is_at_distance_0() -> None:
     nearest = world.nearest_body(corner)
     assert nearest is not None and isinstance(nearest.pair, pliant.Pair)
     assert (nearest.pair.body_b, nearest.distance, nearest.direction) == (touching, 0, None)
+
+
+def test_feature_pairs_are_each_contact_once() -> None:
+    world, _, shapes = bodies(np.float64)
+    vertices = world.close_vertex_triangle_pairs(Selection.EVERYTHING, 0.5).all()
+    edges = world.close_edge_edge_pairs(Selection.EVERYTHING, 0.5).all()
+    contacts = pliant.feature_pairs(world, Selection.EVERYTHING, 0.5)
+    assert isinstance(contacts, pliant.FeaturePairs)
+    assert contacts.multiplicity.sum() == len(vertices.pairs) + len(edges.pairs)
+    assert len(contacts.kind) > 20 and contacts.multiplicity.max() > 1
+    names = np.c_[contacts.kind, contacts.bodies[:, 0], contacts.numbers[:, 0], contacts.bodies[:, 1], contacts.numbers[:, 1]]
+    assert (np.unique(names, axis=0) == names).all()
+    assert set(contacts.distance) <= set(vertices.distance) | set(edges.distance)
+    for row in range(len(names)):
+        kind = pliant.FeatureKind(contacts.kind[row])
+        count = {pliant.FeatureKind.EDGE_EDGE: 2}.get(kind, 1)
+        ends = []
+        for side, places in enumerate((slice(0, count), slice(count, 4))):
+            numbers = contacts.vertices[row, places]
+            used = numbers != 0xFFFFFFFF
+            weights = contacts.weights[row, places]
+            assert weights.sum() == pytest.approx(1) and not weights[~used].any()
+            ends.append(weights[used] @ shapes[contacts.bodies[row, side]][numbers[used]])
+        assert np.allclose(ends[0] - ends[1], contacts.distance[row] * contacts.direction[row], atol=1e-9)
+    with pytest.raises(pliant.Error) as refused:
+        pliant.feature_pairs(world, Selection.EVERYTHING, -1.0)
+    assert refused.value.kind == "BadDistance" and "distance" in str(refused.value)
+
+
+def test_edges_and_points_are_elements() -> None:
+    world = pliant.World()
+    floor = world.add([[0, 1, 2]], [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])
+    at = np.array([[0.0, 0, 0.25], [1, 0, 0.25], [2, 0, 0.25], [0, 1, 0.25], [3, 3, 0.25]])
+    cable = world.add(None, at, edges=[[0, 1], [1, 2]], points=[3])
+    assert world.triangles(cable).tolist() == [[0, 1, 1], [1, 2, 2], [3, 3, 3]]
+    assert world.edges(cable).tolist() == [[0, 1], [1, 2]]
+    contacts = pliant.feature_pairs(world, Selection.between(floor, cable), 0.3)
+    # Each vertex that is named is above the face, once.
+    assert (contacts.kind == pliant.FeatureKind.VERTEX_FACE).all()
+    assert contacts.numbers[:, 0].tolist() == [0, 1, 2, 3] and (contacts.distance == 0.25).all()
+    # Two cables that cross, and a point beside one.
+    other = world.add(np.empty((0, 3), int), at + [0.5, -0.5, 0.1], edges=np.array([[0, 3]]), points=np.array([2, 2]))
+    contacts = pliant.feature_pairs(world, Selection.between(cable, other), 0.11)
+    assert contacts.kind.tolist() == [pliant.FeatureKind.EDGE_EDGE]
+    assert contacts.vertices.tolist() == [[0, 1, 0, 3]] and contacts.weights.tolist() == [[0.5] * 4]
+    for arguments, wrong in (
+        ({"edges": [[0, 5]]}, "row 0 of edges names vertex 5"),
+        ({"points": [0, 7]}, "row 1 of points names vertex 7"),
+        ({"edges": [0, 1]}, "edges have shape"),
+        ({"edges": [[0.0, 1.0]]}, "integers"),
+    ):
+        with pytest.raises(pliant.Error) as refused:
+            world.add(None, at, **arguments)
+        assert refused.value.kind == "BadArray" and wrong in str(refused.value), refused.value
+    with pytest.raises(pliant.Error) as refused:
+        world.add(None, at)
+    assert refused.value.kind == "NoTriangles"

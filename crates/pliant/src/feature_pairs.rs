@@ -338,3 +338,9 @@ fn along(p: [f64; 3], [from, to]: [[f64; 3]; 2]) -> f64 {
     };
     (dot(&t, &e) / dot(&e, &e)).clamp(0.0, 1.0)
 }
+
+impl From<FeaturePairs> for Vec<FeaturePair> {
+    fn from(contacts: FeaturePairs) -> Self {
+        contacts.rows
+    }
+}

@@ -14,6 +14,7 @@ A hit is a row of four numbers, uint32: body, triangle, body, triangle. Rows are
   intersection_pairs        two meshes, in one call
   vertex_triangle_impacts, edge_edge_impacts    when single pairs of moving elements meet
   segments, curves          where listed pairs meet
+  feature_pairs             each contact of close elements once, as solvers sum it
   Changes                   hits that began, persist and ended since the last list
   check                     files, frame by frame
   Error                     every refusal, with its kind and facts
@@ -42,6 +43,7 @@ from ._pliant import (
     check,
     curves,
     edge_edge_impacts,
+    feature_pairs,
     intersection_pairs,
     segments,
     self_intersection_pairs,
@@ -64,6 +66,8 @@ from ._types import (
     EdgeEdge,
     Edited,
     Error,
+    FeatureKind,
+    FeaturePairs,
     FirstImpact,
     Frame,
     FreeStep,
@@ -107,6 +111,8 @@ __all__ = [
     "Edit",
     "Edited",
     "Error",
+    "FeatureKind",
+    "FeaturePairs",
     "FirstImpact",
     "Frame",
     "FreeStep",
@@ -134,6 +140,7 @@ __all__ = [
     "check",
     "curves",
     "edge_edge_impacts",
+    "feature_pairs",
     "intersection_pairs",
     "reference",
     "segments",

@@ -34,6 +34,7 @@ from ._types import (
     Curves,
     EdgeEdge,
     Edited,
+    FeaturePairs,
     Frame,
     FreeStep,
     Fused,
@@ -65,6 +66,7 @@ __all__ = [
     "check",
     "curves",
     "edge_edge_impacts",
+    "feature_pairs",
     "intersection_pairs",
     "reference_intersection_pairs",
     "reference_self_intersection_pairs",
@@ -125,10 +127,14 @@ class World:
     def options(self) -> _Options:
         """Options of this world, a dict of the keyword arguments that make another like it."""
     @overload
-    def add(self, faces: _Array, positions: _Array) -> int:
+    def add(
+        self, faces: _Array | None, positions: _Array, *, edges: _Array | None = None, points: _Array | None = None,
+    ) -> int:
         """Adds a body, and returns its number, an int that this world will not use again."""
     @overload
-    def add(self, faces: Mesh | OpenMesh, positions: None = None) -> int: ...
+    def add(
+        self, faces: Mesh | OpenMesh, positions: None = None, *, edges: _Array | None = None, points: _Array | None = None,
+    ) -> int: ...
     @overload
     def set_mesh(self, body: SupportsIndex, faces: _Array, positions: _Array) -> None:
         """Gives a body another mesh and shape, of any size."""
@@ -447,6 +453,9 @@ def segments(world: World, pairs: _Pairs) -> Segments:
 
 def curves(world: World, pairs: _Pairs, *, areas: bool = False) -> Curves:
     """Finds the curves in which pairs of triangles meet: a Curves of arrays."""
+
+def feature_pairs(world: World, of: Selection, distance: float) -> FeaturePairs:
+    """Finds each contact of close elements once, with its features: a FeaturePairs of arrays."""
 
 def vertex_triangle_impacts(
     start: _Array, end: _Array, width: float = 1e-6

@@ -47,6 +47,7 @@ class Error(ValueError):
       NoSuchTriangle    triangle, triangles
       EmptyTriangle     the triangle was removed: triangle
       NoSuchVertex      vertex, vertices
+      NoSuchEdge        edge, edges
       EmptyVertex       the vertex went with its last triangle: vertex
       VertexInUse       a vertex that is placed is not empty: vertex
       NotACorner        a vertex that is split is no corner of the triangle: triangle, vertex
@@ -178,6 +179,39 @@ class ClosePair(NamedTuple):
     """From the second element to the first, of length 1; None if they touch."""
     barycentric: tuple[float, ...]
     """Weights of the corners in the closest points, as in ClosePairs."""
+
+
+class FeatureKind(IntEnum):
+    """Kinds of two features that hold closest points: vertices, insides of edges and of faces."""
+
+    VERTEX_VERTEX = 0
+    VERTEX_EDGE = 1
+    EDGE_EDGE = 2
+    VERTEX_FACE = 3
+
+
+class FeaturePairs(NamedTuple):
+    """Contacts of close elements, each once, a row each: see feature_pairs."""
+
+    kind: NDArray[np.uint8]
+    """(k,): a FeatureKind each."""
+    bodies: NDArray[np.uint32]
+    """(k, 2): the bodies of both features. A vertex comes before an edge or a face; of two of one
+    kind the lower by body and number is first."""
+    numbers: NDArray[np.uint32]
+    """(k, 2): numbers of the features: of a vertex, a row of edges(body), or a triangle."""
+    vertices: NDArray[np.uint32]
+    """(k, 4): vertices of the first feature, then of the second; 0xFFFFFFFF in the rest. An edge
+    has two, as edges(body) orders them, a face three."""
+    weights: NDArray[np.float64]
+    """(k, 4): weights of these in the closest points; those of either feature sum to 1. 0 in the
+    rest."""
+    distance: NDArray[np.float64]
+    """(k,), in the unit of the positions."""
+    direction: NDArray[np.float64]
+    """(k, 3), of length 1, from the second feature to the first. Zeros where they touch."""
+    multiplicity: NDArray[np.uint32]
+    """(k,): how many rows of both lists of close pairs each stands for."""
 
 
 class ContactKind(IntEnum):
@@ -624,7 +658,7 @@ class OpenMesh(Protocol):
 
 
 _PUBLIC = (
-    *(Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Contact, ContactKind, Contacts),
+    *(Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, FeatureKind, FeaturePairs, Contact, ContactKind, Contacts),
     *(CrossingEdge, Segments, CurveEnd, Curves, Changed, Edited, Fused, Piece, Impact, Impacts, FreeStep, TreeBoxes, TreeShape, Statistics),
     *(Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Adjacent, CrossingEdges, Frame, Mesh, OpenMesh),
 )

@@ -65,7 +65,7 @@ fn plan(form: Form) -> Vec<Planned> {
             let (triangles, positions) = mesh(count);
             let turned = turned(&positions, steps);
             let frames = turned.into_iter().map(|at| vec![waves.clone(), at]);
-            motion([good, triangles].into(), frames.collect())
+            motion([good, triangles].into(), &frames.collect::<Vec<_>>())
         }));
     }
     // Powers of two: coordinates and shifts have no rounding.
@@ -81,7 +81,10 @@ fn plan(form: Form) -> Vec<Planned> {
             };
             let shift = |step: u32| step as f32 / 64.0;
             let frames = (1..=steps).map(|step| vec![shifted(0.0), shifted(shift(step))]);
-            motion(vec![triangles.clone(), triangles], frames.collect())
+            motion(
+                vec![triangles.clone(), triangles],
+                &frames.collect::<Vec<_>>(),
+            )
         }));
     }
     let (count, steps) = if is_full { (5_000, 4) } else { (150, 2) };
@@ -90,7 +93,7 @@ fn plan(form: Form) -> Vec<Planned> {
         plan.push(planned(name, [1, steps], Query::Near, truth, move || {
             let (triangles, positions) = thin::fan(count);
             let frames = turned(&positions, steps).into_iter().map(|at| vec![at]);
-            motion(vec![triangles], frames.collect())
+            motion(vec![triangles], &frames.collect::<Vec<_>>())
         }));
     }
     plan
@@ -111,17 +114,15 @@ fn planned(
         };
         let options = Options::default();
         let single = Ours::<f32>::new(DEFAULT, options);
-        let methods = match query {
-            Query::Near => vec![Contender::new(DEFAULT, single.within(0.0))],
-            _ => {
-                let double = Ours::<f64>::new(DOUBLE, options);
-                let mut both = vec![
-                    Contender::new(DEFAULT, single),
-                    Contender::new(DOUBLE, double),
-                ];
-                both.truncate(precisions as usize);
-                both
-            }
+        let methods = if query == Query::Near {
+            vec![Contender::new(DEFAULT, single.within(0.0))]
+        } else {
+            let double = Ours::<f64>::new(DOUBLE, options);
+            let both = [
+                Contender::new(DEFAULT, single),
+                Contender::new(DOUBLE, double),
+            ];
+            both.into_iter().take(precisions as usize).collect()
         };
         Contest {
             name: name.to_owned(),
@@ -143,7 +144,7 @@ fn turned(positions: &[[f32; 3]], steps: u32) -> Vec<Vec<[f32; 3]>> {
 }
 
 /// Motion of bodies through the positions of all of them in each step.
-fn motion(meshes: Vec<Vec<[u32; 3]>>, frames: Vec<Vec<Vec<[f32; 3]>>>) -> Motion {
+fn motion(meshes: Vec<Vec<[u32; 3]>>, frames: &[Vec<Vec<[f32; 3]>>]) -> Motion {
     let placed = |world: &Vec<[f32; 3]>| Placed {
         world: world.clone(),
         ..Placed::default()

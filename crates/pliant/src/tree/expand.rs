@@ -3,7 +3,7 @@
 //! Trees are of one degree, which is matched on once a batch (`boxes/lanes.rs`).
 
 use super::rims::GrownRims;
-use super::{BoxSet, Child, Neighbours, Rims, STRICT_UPPER, Tree, of_degree};
+use super::{BoxSet, Child, Neighbours, Nodes, Rims, STRICT_UPPER, Tree, of_degree};
 use crate::geometry::Aabb;
 use crate::held::held;
 use crate::ids::{LeafId, NodeId, WideNodeId};
@@ -230,9 +230,7 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
                     .push_bits(mask, |lane| [NodeId::new(below, lane as usize), node_b]);
             }
             (Child::Inner(below_a), Child::Inner(below_b)) => {
-                if let Some(fans) = left_out.and_then(Neighbours::fans)
-                    && fans.are_one([node_a, node_b].map(|node| nodes_a.number_of(node)))
-                {
+                if left_out.is_some_and(|known| are_one_fan(nodes_a, known, [node_a, node_b])) {
                     continue;
                 }
                 let (wide_a, wide_b) = (nodes_a.wide(below_a), nodes_b.wide(below_b));
@@ -295,6 +293,14 @@ fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
             }
         }
     }
+}
+
+/// Whether all triangles below two nodes of a tree share a vertex, as far as it is known. Not
+/// inlined, so that trees without fans lose nothing.
+#[inline(never)]
+fn are_one_fan(nodes: Nodes, known: &Neighbours, pair: NodePair) -> bool {
+    let fans = known.fans();
+    fans.is_some_and(|fans| fans.are_one(pair.map(|node| nodes.number_of(node))))
 }
 
 /// Box of one node.

@@ -74,9 +74,7 @@ impl Fans {
         self.0.is_empty()
     }
 
-    /// Whether all triangles below two nodes share a vertex with many. Not inlined, so that trees
-    /// without fans lose nothing.
-    #[inline(never)]
+    /// Whether all triangles below two nodes share a vertex with many.
     pub(super) fn are_one(&self, nodes: [usize; 2]) -> bool {
         let [a, b] = nodes.map(|node| self.of_node(node));
         a.is_some() && a == b

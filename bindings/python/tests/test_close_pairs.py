@@ -146,6 +146,11 @@ def test_feature_pairs_are_each_contact_once() -> None:
     contacts = pliant.feature_pairs(world, Selection.EVERYTHING, 0.5)
     assert isinstance(contacts, pliant.FeaturePairs)
     assert contacts.multiplicity.sum() == len(vertices.pairs) + len(edges.pairs)
+    # In general position rounding decides no features.
+    plain = np.concatenate([vertices.features(), edges.features()])
+    assert [(plain == kind).sum() for kind in range(4)] == [contacts.multiplicity[contacts.kind == kind].sum() for kind in range(4)]
+    with pytest.raises(ValueError, match="features are of"):
+        world.close_triangle_pairs(Selection.EVERYTHING, 0.1).all().features()
     assert len(contacts.kind) > 20 and contacts.multiplicity.max() > 1
     names = np.c_[contacts.kind, contacts.bodies[:, 0], contacts.numbers[:, 0], contacts.bodies[:, 1], contacts.numbers[:, 1]]
     assert (np.unique(names, axis=0) == names).all()

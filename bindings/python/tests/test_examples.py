@@ -228,3 +228,12 @@ def test_folder_with_dask(tmp_path: Path) -> None:
                 assert [frame.frame for frame in frames] == [frame.frame for frame in serial[file]]
                 for frame, expected in zip(frames, serial[file]):
                     np.testing.assert_array_equal(frame.pairs, expected.pairs)
+
+
+def test_cloth_with_a_barrier_never_intersects(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("scipy")
+    said = run("ipc_cloth.py", 8, monkeypatch=monkeypatch, capsys=capsys).splitlines()
+    assert len(said) == 8 and all(line.endswith(", 0 intersections") for line in said)
+    # It has come near the ball, and stays away from it.
+    near = [float(line.split(" iterations, ")[1].split()[0]) for line in said]
+    assert near[0] > 0.08 and 0 < near[-1] < 0.05

@@ -18,6 +18,7 @@ A hit is a row of four numbers, uint32: body, triangle, body, triangle. Rows are
   Changes                   hits that began, persist and ended since the last list
   check                     files, frame by frame
   Error                     every refusal, with its kind and facts
+  derivatives               of squared distances of contacts, for solvers
   reference                 intersections by brute force, to compare with
 
 Two triangles intersect as closed sets: touching in one point counts, and so does coplanar overlap.
@@ -28,7 +29,7 @@ a body wholly inside another meets none of its triangles.
 help(pliant.World) lists all questions, with shapes, dtypes, errors and cost.
 """
 
-from . import reference
+from . import derivatives, reference
 from ._pliant import (
     Changes,
     Check,
@@ -139,6 +140,7 @@ __all__ = [
     "__version__",
     "check",
     "curves",
+    "derivatives",
     "edge_edge_impacts",
     "feature_pairs",
     "intersection_pairs",

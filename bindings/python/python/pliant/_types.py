@@ -167,6 +167,18 @@ class ClosePairs(NamedTuple):
     for both ends of the first edge, then of the second. (k, 6) for the corners of the first
     triangle, then of the second."""
 
+    def features(self) -> NDArray[np.uint8]:
+        """(k,): a FeatureKind each, from the weights that are above 0, which are rounded.
+
+        feature_pairs has exact ones. ValueError for triangles.
+        """
+        corners = self.barycentric.shape[1]
+        if corners not in (3, 4):
+            raise ValueError("features are of vertices and triangles, or of edges and edges")
+        # Of a triangle one corner, two or three hold the point; of two edges one end more.
+        kinds = [0, 0, 1, 3] if corners == 3 else [0, 0, 0, 1, 2]
+        return np.array(kinds, dtype=np.uint8)[(self.barycentric > 0).sum(1)]
+
 
 class ClosePair(NamedTuple):
     """Two close elements, as a row of ClosePairs has them."""

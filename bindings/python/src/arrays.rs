@@ -194,24 +194,29 @@ pub(crate) fn numbers(given: &Any<'_>, [name, what]: [&str; 2]) -> Result<Vec<u3
     rows.iter().map(number).collect()
 }
 
-/// Copies edges (k, 2) and points (k,), of any integer type, as the triangles that they are: an edge
-/// has its second end twice, a point its vertex three times. Vertices are below `vertices`.
+/// Copies edges (k, 2) of any integer type: the two vertices of each.
+pub(crate) fn edges_of(edges: &Any<'_>) -> Result<Vec<[u32; 2]>> {
+    let array = as_numpy(edges, "edges")?;
+    let shape = array.shape();
+    if !matches!(shape, [_, 2] | [0]) {
+        return Err(refused!(BadArray:
+            "edges have shape {shape:?}; they must be (k, 2), two vertices a row"));
+    }
+    let flat = array.call_method1(intern!(edges.py(), "reshape"), (-1,))?;
+    let ends = numbers(&flat, ["edges", "the numbers of their vertices"])?;
+    Ok(ends.as_chunks().0.to_vec())
+}
+
+/// Copies edges (k, 2) and points (k,), of any integer type, as the triangles that they are.
+///
+/// An edge has its second end twice, a point its vertex three times. Vertices are below `vertices`.
 pub(crate) fn edges_and_points(
     [edges, points]: [Option<&Any<'_>>; 2],
     vertices: usize,
 ) -> Result<Vec<[u32; 3]>> {
-    let is_wide = |shape: &[usize]| matches!(shape, [_, 2] | [0]);
     let mut triangles = Vec::new();
     if let Some(edges) = edges {
-        let array = as_numpy(edges, "edges")?;
-        if !is_wide(array.shape()) {
-            let shape = array.shape();
-            return Err(refused!(BadArray:
-                "edges have shape {shape:?}; they must be (k, 2), two vertices a row"));
-        }
-        let flat = array.call_method1(intern!(edges.py(), "reshape"), (-1,))?;
-        let ends = numbers(&flat, ["edges", "the numbers of their vertices"])?;
-        triangles.extend(ends.as_chunks().0.iter().map(|&[a, b]| [a, b, b]));
+        triangles.extend(edges_of(edges)?.into_iter().map(|[a, b]| [a, b, b]));
     }
     let edge_count = triangles.len();
     if let Some(points) = points {

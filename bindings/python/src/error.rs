@@ -33,6 +33,7 @@ pub(crate) enum Refused {
 pub(crate) enum Fact {
     Number(i128),
     Position((f64, f64, f64)),
+    Vertices((u32, u32)),
     Text(String),
 }
 
@@ -53,6 +54,7 @@ facts! {
     u32, number => Self::Number(number.into());
     BodyId, body => Self::Number(body.0.into());
     [f64; 3], position => Self::Position(position.into());
+    [u32; 2], vertices => Self::Vertices(vertices.into());
     String, text => Self::Text(text);
     &str, text => Self::Text(text.to_owned());
 }
@@ -159,6 +161,8 @@ impl From<pliant::Error> for Refused {
             EmptyTriangle { triangle }
             NoSuchVertex { vertex, vertices }
             NoSuchEdge { edge, edges }
+            MissingEdge { vertices }
+            NotAnEdge { edge, vertices }
             EmptyVertex { vertex }
             VertexInUse { vertex }
             NotACorner { triangle, vertex }

@@ -42,7 +42,7 @@ use std::borrow::Cow;
 /// a body.
 ///
 /// - bodies: add, remove, bodies, set_positions, write_positions, positions, triangles, edges,
-///   triangle_count, vertex_count
+///   set_edges, triangle_count, vertex_count
 /// - what meets or is near: intersections, contacts, adjacent_intersections, crossing_edges,
 ///   vertex_triangle_candidates, edge_edge_candidates
 /// - distances: close_vertex_triangle_pairs, close_edge_edge_pairs, close_triangle_pairs, distance,
@@ -280,6 +280,21 @@ impl World {
         let (faces, positions) = mesh.get()?;
         let state = &self.state;
         state.with(py, |state| state.set_mesh(body.0, faces, positions))
+    }
+
+    /// Numbers the edges of a body as given, (k, 2) of any integer type, two vertices a row.
+    ///
+    /// They must be the edges of the mesh, each once, with their ends in either order. From then on
+    /// answers name edges by the row here, as a solver that has its own edges does. edges(body) has
+    /// the smaller end of each first, and so have weights and times along edges.
+    ///
+    /// Raises pliant.Error: NoSuchBody, BadArray, MissingEdge, NotAnEdge. EditedMesh once an edit
+    /// has changed the mesh.
+    ///
+    /// Cost: O(k log k).
+    fn set_edges(&self, py: Python<'_>, body: Body, edges: &Any<'_>) -> Result<()> {
+        let edges = arrays::edges_of(edges)?;
+        Ok(ask!(self, py, world => world.set_edges(body.0, &edges))??)
     }
 
     /// Begins an edit of a body's mesh: an Edit without steps, which apply makes all at once.

@@ -129,3 +129,18 @@ def test_motions_and_groups_are_pickled_and_copied() -> None:
         end = again.end_positions(body)
         assert end is not None and (end == flat + [0, 0, 4]).all()
         assert again.vertex_groups(body).tolist() == list(range(9))
+
+
+def test_edges_are_numbered_as_given() -> None:
+    faces, flat = sheet(4)
+    world = pliant.World()
+    body = world.add(faces, flat)
+    edges = world.edges(body)
+    world.set_edges(body, edges[::-1].astype(np.int16)[:, ::-1])
+    assert (world.edges(body) == edges[::-1]).all()
+    found = world.edge_edge_candidates(Selection.within(body), 0.1).all()
+    assert len(found) > 10 and not (np.isin(edges[::-1][found[:, 1]], edges[::-1][found[:, 3]]).all(1)).all()
+    with pytest.raises(pliant.Error) as refused:
+        world.set_edges(body, edges[1:])
+    assert refused.value.kind == "MissingEdge" and refused.value.vertices == tuple(edges[0].tolist())
+    assert (pickle.loads(pickle.dumps(world)).edges(body) == edges[::-1]).all()

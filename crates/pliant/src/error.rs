@@ -156,6 +156,20 @@ pub enum ErrorKind {
         /// How many edges there are.
         edges: usize,
     },
+    /// Edges that are given to a body lack one that its mesh has.
+    MissingEdge {
+        /// Its two vertices.
+        vertices: [u32; 2],
+    },
+    /// Edges that are given to a body have one that its mesh has not, or have it twice.
+    NotAnEdge {
+        /// The row.
+        edge: u32,
+        /// Its two vertices.
+        vertices: [u32; 2],
+    },
+    /// Edges are given to a body whose mesh was edited: their numbers follow the edits.
+    EditedMesh,
     /// An edit names a vertex that is gone, because no triangle used it any more.
     EmptyVertex {
         /// The vertex.
@@ -350,10 +364,27 @@ impl ErrorKind {
                 "the edit names vertex {vertex}, but there are {vertices} vertices (counted from \
                  0); name one that is there"
             ),
+            Self::MissingEdge { vertices: [a, b] } => write!(
+                f,
+                "the edges lack the one from vertex {a} to vertex {b}; give every edge of the mesh"
+            ),
+            Self::NotAnEdge {
+                edge,
+                vertices: [a, b],
+            } => write!(
+                f,
+                "edge {edge}, from vertex {a} to vertex {b}, is no edge of a triangle, or stands \
+                 there before; give every edge of the mesh once"
+            ),
+            Self::EditedMesh => write!(
+                f,
+                "the mesh was edited, and its edges keep their numbers; give edges before that, or \
+                 set another mesh"
+            ),
             Self::NoSuchEdge { edge, edges } => write!(
                 f,
-                "the list names edge {edge}, but there are {edges} edges (counted from 0); ask again, \
-                 for the mesh was changed"
+                "the list names edge {edge}, but there are {edges} edges (counted from 0); ask \
+                 again, for the mesh was changed"
             ),
             Self::EmptyVertex { vertex } => write!(
                 f,

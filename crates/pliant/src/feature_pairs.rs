@@ -1,8 +1,8 @@
 //! Feature pairs: each contact of close elements once, whatever number of pairs it comes up in.
 //!
-//! Idea: a contact is named by its closest features, which are decided exactly; rows of one name are
-//! one contact. Source: the collisions that ipc-toolkit sums (Li et al. 2020, *Incremental Potential
-//! Contact*). Difference: features are those of real arithmetic, and are never merged by rounding.
+//! Idea: a contact is named by its closest features, which are decided exactly. Rows of one name
+//! are one contact. Source: the collisions that ipc-toolkit sums (Li et al. 2020, *Incremental
+//! Potential Contact*). Difference: rounding decides no feature.
 
 use crate::error::Error;
 use crate::ids::BodyId;
@@ -29,7 +29,7 @@ pub struct FeaturePair {
     /// A vertex comes before an edge or a face. Of two vertices or two edges the lower comes first,
     /// by body and number.
     pub numbers: [u32; 2],
-    /// Vertices of the first feature, and behind them those of the second; `u32::MAX` in the rest.
+    /// Vertices of the first feature, then of the second; `u32::MAX` in the rest.
     ///
     /// An edge has two, as [`World::edges`] orders them, a face three.
     pub vertices: [u32; 4],
@@ -64,10 +64,9 @@ impl FeaturePair {
 /// edges, edges with edges, vertices with faces, each by bodies and numbers. Multiplicities sum to
 /// the lengths of the two lists.
 ///
-/// Which features are closest is exact, in real arithmetic on the numbers given. Parallel edges have
-/// several; the contact is the first of them in order. Distance, direction and weights are of the
-/// first pair that has the contact, with the bounds of [`CloseVertexTriangle`], and twice that for
-/// the points.
+/// Which features are closest is exact, in real arithmetic on the numbers given. Parallel edges
+/// have several; the contact is the first of them in order. Distance, direction and weights have
+/// the bounds of [`CloseVertexTriangle`].
 ///
 /// ```
 /// # use pliant::{ClosestFeatures, FeaturePairs, Selection, World};
@@ -85,7 +84,8 @@ impl FeaturePair {
 /// let [contact] = contacts.all() else { panic!() };
 /// assert_eq!(contact.features, ClosestFeatures::VertexEdge);
 /// assert_eq!((contact.bodies, contact.multiplicity), ([leaf, floor], 4));
-/// assert_eq!((contact.vertices, contact.weights), ([0, 0, 2, u32::MAX], [1.0, 0.5, 0.5, 0.0]));
+/// assert_eq!(contact.vertices, [0, 0, 2, u32::MAX]);
+/// assert_eq!(contact.weights, [1.0, 0.5, 0.5, 0.0]);
 /// # Ok::<(), pliant::Error>(())
 /// ```
 #[derive(Clone, Debug, Default)]
@@ -111,10 +111,13 @@ impl FeaturePairs {
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`NoSuchTriangle`](crate::ErrorKind::NoSuchTriangle),
-    /// [`EmptyTriangle`](crate::ErrorKind::EmptyTriangle), [`NoSuchVertex`](crate::ErrorKind::NoSuchVertex),
-    /// [`EmptyVertex`](crate::ErrorKind::EmptyVertex), [`NoSuchEdge`](crate::ErrorKind::NoSuchEdge), if the lists
-    /// are of another world or another mesh.
+    /// If the lists are of another world or another mesh:
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody),
+    /// [`NoSuchTriangle`](crate::ErrorKind::NoSuchTriangle),
+    /// [`EmptyTriangle`](crate::ErrorKind::EmptyTriangle),
+    /// [`NoSuchVertex`](crate::ErrorKind::NoSuchVertex),
+    /// [`EmptyVertex`](crate::ErrorKind::EmptyVertex),
+    /// [`NoSuchEdge`](crate::ErrorKind::NoSuchEdge).
     pub fn update<S: Scalar>(
         &mut self,
         world: &World<S>,

@@ -142,6 +142,8 @@ class World:
     def set_mesh(
         self, body: SupportsIndex, faces: Mesh | OpenMesh, positions: None = None,
     ) -> None: ...
+    def set_edges(self, body: SupportsIndex, edges: _Array) -> None:
+        """Numbers the edges of a body as given, (k, 2) of any integer type, two vertices a row."""
     def edit(self, body: SupportsIndex) -> Edit:
         """Begins an edit of a body's mesh: an Edit without steps, which apply makes all at once."""
     def apply(self, edit: Edit) -> Edited:

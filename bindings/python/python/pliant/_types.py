@@ -48,6 +48,9 @@ class Error(ValueError):
       EmptyTriangle     the triangle was removed: triangle
       NoSuchVertex      vertex, vertices
       NoSuchEdge        edge, edges
+      MissingEdge       edges lack one of the mesh: vertices
+      NotAnEdge         edges have one that the mesh has not, or have it twice: edge, vertices
+      EditedMesh        edges are numbered before a mesh is edited
       EmptyVertex       the vertex went with its last triangle: vertex
       VertexInUse       a vertex that is placed is not empty: vertex
       NotACorner        a vertex that is split is no corner of the triangle: triangle, vertex

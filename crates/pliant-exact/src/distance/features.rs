@@ -14,9 +14,10 @@ use crate::ring::Ring;
 
 /// Shows `found` the pairs of features that hold the closest points of two elements. Exact.
 ///
-/// Numbers are those of the corners of either element: an edge from a corner to the next, and of
-/// two edges `Edge(0)` the inside of each. There is one pair of features, but for two cases, in
-/// which all are shown, some perhaps twice: parallel edges, and points on a border between features.
+/// Corners are numbered as in either element. An edge goes from a corner to the next; of two edges
+/// `Edge(0)` is the inside of each. Mostly there is one pair of features. Parallel edges, and
+/// points on a border between features, have several. Then all are shown, some perhaps twice.
+///
 /// Cost: some ten nanoseconds, or microseconds where rounding does not decide.
 pub fn closest_features(elements: &Primitives, mut found: impl FnMut([Feature; 2])) {
     if let Some(features) = certain_features(elements) {

@@ -123,6 +123,11 @@ impl<S: Coordinate> Body<S> {
         self.mesh.number_edges(edges)
     }
 
+    /// Numbers the edges as given.
+    pub(crate) fn set_edges(&mut self, edges: &[[u32; 2]]) -> Result<(), ErrorKind> {
+        self.mesh.set_edges(edges)
+    }
+
     // The shape.
 
     /// Validates a new shape and takes it over; on an error the body stays as it is. A motion ends.

@@ -3,6 +3,7 @@
 mod edits;
 
 use super::shape::NewShape;
+use crate::error::ErrorKind;
 use crate::geometry::Points;
 use crate::held::{self, held};
 use crate::ids::{BodyId, TreeTriangle, TreeVertex};
@@ -215,6 +216,36 @@ impl<S: Coordinate> BodyMesh<S> {
         let is_new = !self.edges_are_known() && self.elements(&|| false).is_some();
         let (elements, topology) = (self.elements.get_mut(), &self.topology);
         is_new && elements.is_some_and(|elements| elements.renumber(edges, topology))
+    }
+
+    /// Numbers the edges as given, unless the mesh was edited. They are the mesh's, each once.
+    pub(crate) fn set_edges(&mut self, edges: &[[u32; 2]]) -> Result<(), ErrorKind> {
+        if self.edits.is_some() {
+            return Err(ErrorKind::EditedMesh);
+        }
+        let edges: Vec<[u32; 2]> = edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+        let Some(mut new) = Elements::new(&self.topology, &self.order, &|| false) else {
+            return Ok(());
+        };
+        let mut given: Vec<([u32; 2], u32)> = edges.iter().copied().zip(0..).collect();
+        given.sort_unstable();
+        let mut given = given.into_iter();
+        for &vertices in new.callers() {
+            match given.next() {
+                Some((known, _)) if known == vertices => {}
+                Some((other, edge)) if other < vertices => {
+                    let vertices = other;
+                    return Err(ErrorKind::NotAnEdge { edge, vertices });
+                }
+                _ => return Err(ErrorKind::MissingEdge { vertices }),
+            }
+        }
+        if let Some((vertices, edge)) = given.next() {
+            return Err(ErrorKind::NotAnEdge { edge, vertices });
+        }
+        new.renumber(&edges, &self.topology);
+        self.elements = OnceLock::from(Box::new(new));
+        Ok(())
     }
 
     #[inline]

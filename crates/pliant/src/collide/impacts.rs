@@ -101,7 +101,7 @@ impl<S: Coordinate> AskedImpacts<S> {
                 earliest = asked.earliest(common, request, reach, distance, earliest)?;
                 statistics += common.statistics;
             }
-            // Of contacts at the start those of vertices come first.
+            // At the start a vertex and a triangle come before any edges.
             let is_found = earliest.known_at_start().is_some();
             if of != OfKind::VerticesAndTriangles && !is_found {
                 let asked = &mut self.edge_edge;

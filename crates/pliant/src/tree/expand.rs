@@ -63,9 +63,10 @@ impl<'t, const N: usize> NodeVolumes<'t, N> {
         }
     }
 
-    /// Clears the bits of pairs that capsules show to be apart, or that rims leave out: of nodes of
-    /// a wide node of this tree and of one of another. Not inlined, so that trees without either
-    /// lose nothing.
+    /// Clears the bits of pairs that capsules show to be apart, or that rims leave out.
+    ///
+    /// The nodes are of a wide node of this tree and of one of another. Not inlined, so that trees
+    /// without either lose nothing.
     #[inline(never)]
     fn cull<I: Simd>(
         self,

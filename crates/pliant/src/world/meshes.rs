@@ -50,6 +50,34 @@ impl<S: Scalar> World<S> {
         self.verbs.set_mesh(body, triangles, positions)
     }
 
+    /// Numbers the edges of a body as given, shape (k, 2): two vertices a row, in either order.
+    ///
+    /// They must be the edges of the mesh, each once. From then on answers name edges by the row
+    /// here, as a solver that has its own edges does. [`edges`](Self::edges) has the smaller end of
+    /// each first, and so have weights and times along edges. A motion goes on.
+    ///
+    /// Cost: O(k log k).
+    ///
+    /// ```
+    /// # use pliant::World;
+    /// let mut world = World::<f32>::new();
+    /// let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    /// let body = world.add(&[[0, 1, 2]], &corners)?;
+    /// world.set_edges(body, &[[2, 1], [0, 1], [2, 0]])?;
+    /// assert_eq!(world.edges(body)?, [[1, 2], [0, 1], [0, 2]]);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody),
+    /// [`MissingEdge`](crate::ErrorKind::MissingEdge),
+    /// [`NotAnEdge`](crate::ErrorKind::NotAnEdge).
+    /// [`EditedMesh`](crate::ErrorKind::EditedMesh) once an edit has changed the mesh.
+    pub fn set_edges(&mut self, body: BodyId, edges: &[[u32; 2]]) -> Result<(), Error> {
+        self.verbs.set_edges(body, edges)
+    }
+
     /// Begins an edit of a body's mesh, for [`apply`](Self::apply) to make all at once or not at
     /// all.
     ///

@@ -12,9 +12,11 @@ impl<S: Scalar> World<S> {
     /// shape (n, 3).
     ///
     /// Indices count from 0. The tree is built on these positions, which need not be special; a
-    /// rest pose is best. Corners may repeat: a degenerate triangle is the segment or point that it
-    /// is. So `[i, j, j]` is an edge of its own, a part of a cable or a net, and `[i, i, i]` a point;
-    /// every question answers for them as for triangles. Vertices that no triangle uses are allowed, and checked like the others.
+    /// rest pose is best. Vertices that no triangle uses are allowed, and checked like the others.
+    ///
+    /// Corners may repeat: a degenerate triangle is the segment or point that it is. So `[i, j, j]`
+    /// is an edge of its own, as of a cable or a net, and `[i, i, i]` is a point. Every question
+    /// answers for them as for triangles.
     ///
     /// Cost: O(m log m) for the balanced partition; for the others O(m) a level of the tree.
     ///

@@ -40,6 +40,7 @@ pub(crate) trait Verbs<S: Coordinate>: AskAll {
     fn finish_motion(&mut self);
     fn advance_motion(&mut self, t: f64) -> Result<(), Error>;
     fn number_edges(&mut self, id: BodyId, edges: &[[u32; 2]]) -> Result<bool, Error>;
+    fn set_edges(&mut self, id: BodyId, edges: &[[u32; 2]]) -> Result<(), Error>;
     fn tree_boxes(&self, id: BodyId, level: u32) -> Result<Vec<NodeBox<S>>, Error>;
     fn distance(
         &mut self,
@@ -184,6 +185,11 @@ impl<S: Coordinate> Verbs<S> for State<S> {
 
     fn number_edges(&mut self, id: BodyId, edges: &[[u32; 2]]) -> Result<bool, Error> {
         Ok(self.common.bodies.get_mut(id)?.number_edges(edges))
+    }
+
+    fn set_edges(&mut self, id: BodyId, edges: &[[u32; 2]]) -> Result<(), Error> {
+        let body = self.common.bodies.get_mut(id)?;
+        body.set_edges(edges).map_err(about(id))
     }
 
     fn tree_boxes(&self, id: BodyId, level: u32) -> Result<Vec<NodeBox<S>>, Error> {

@@ -9,7 +9,7 @@ use pliant::{
     BodyId, CloseEdgeEdge, CloseVertexTriangle, ClosestFeatures, EdgeEdge, ErrorKind, Options,
     Pair, Scalar, Selection, VertexTriangle, World,
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
@@ -704,4 +704,95 @@ fn the_closest_features_are_named() {
             assert_eq!(found.unwrap().features(), features, "{ends:?} {found:?}");
         }
     }
+}
+
+/// Answers name edges as the caller numbers them, through rebuilds, edits and motions.
+#[test]
+fn edges_have_the_callers_numbers() {
+    let (triangles, flat) = sheet(6);
+    let folded: Vec<[f32; 3]> = flat
+        .iter()
+        .map(|[x, y, _]| [*x, *y, 0.1 * (9.0 * x).sin()])
+        .collect();
+    let mut plain = World::<f32>::new();
+    let mut world = World::<f32>::new();
+    let [a, b] = [&mut plain, &mut world].map(|world| world.add(&triangles, &folded).unwrap());
+    let sorted = plain.edges(a).unwrap().to_vec();
+    // Backwards, and every second one turned round.
+    let own: Vec<[u32; 2]> = sorted
+        .iter()
+        .rev()
+        .zip(0..)
+        .map(|(&[p, q], at)| if at % 2 == 0 { [p, q] } else { [q, p] })
+        .collect();
+    // Before and after they were asked for, and twice.
+    let asked = world
+        .edge_edge_candidates(Selection::Within(b), 0.01)
+        .all()
+        .unwrap()
+        .len();
+    world.set_edges(b, &sorted).unwrap();
+    world.set_edges(b, &own).unwrap();
+    assert!(world.edges(b).unwrap().iter().eq(sorted.iter().rev()));
+    let ends = |world: &mut World<f32>, body| -> BTreeSet<[[u32; 2]; 2]> {
+        let found = world
+            .edge_edge_candidates(Selection::Within(body), 0.01)
+            .all()
+            .unwrap();
+        let found: Vec<_> = found.iter().map(|it| [it.edge_a, it.edge_b]).collect();
+        assert!(found.is_sorted());
+        let edges = world.edges(body).unwrap();
+        let named = found.iter().map(|pair| {
+            let mut pair = pair.map(|edge| edges[edge as usize]);
+            pair.sort_unstable();
+            pair
+        });
+        named.collect()
+    };
+    let expected = ends(&mut plain, a);
+    assert!(asked == expected.len() && asked > 100);
+    assert_eq!(ends(&mut world, b), expected);
+    world.rebuild(b).unwrap();
+    assert!(world.edges(b).unwrap().iter().eq(sorted.iter().rev()));
+    assert_eq!(ends(&mut world, b), expected);
+    let last = own.len() as u32 - 1;
+    for (edges, kind) in [
+        (
+            &own[1..],
+            ErrorKind::MissingEdge {
+                vertices: sorted[last as usize],
+            },
+        ),
+        (
+            &[&own[..], &own[..1]].concat()[..],
+            ErrorKind::NotAnEdge {
+                edge: last + 1,
+                vertices: sorted[last as usize],
+            },
+        ),
+        (
+            &[&own[..], &[[0, 35]]].concat()[..],
+            ErrorKind::NotAnEdge {
+                edge: last + 1,
+                vertices: [0, 35],
+            },
+        ),
+    ] {
+        let refused = world.set_edges(b, edges).unwrap_err();
+        assert_eq!((refused.body, refused.kind), (Some(b), kind));
+    }
+    // Edits keep the numbers.
+    let mut edit = world.edit(b).unwrap();
+    edit.remove_triangle(0);
+    world.apply(&edit).unwrap();
+    let left = world.edges(b).unwrap();
+    assert!(
+        left.iter()
+            .zip(sorted.iter().rev())
+            .all(|(left, own)| left == own || *left == [u32::MAX; 2])
+    );
+    assert_eq!(
+        world.set_edges(b, &own).unwrap_err().kind,
+        ErrorKind::EditedMesh
+    );
 }

@@ -54,7 +54,7 @@ fn expected<S: Scalar>(known: &Moving<S>, radius: f64) -> [[Pairs; 2]; 3] {
     lists
 }
 
-/// The same lists by a world.
+/// Lists as `expected` has them, by a world.
 fn found<S: Scalar>(world: &mut World<S>, of: Selection, radius: f64) -> [[Pairs; 2]; 3] {
     let of_vertices = |pair: VertexTriangle| [pair.vertex, pair.triangle];
     let of_edges = |pair: EdgeEdge| [pair.edge_a, pair.edge_b];

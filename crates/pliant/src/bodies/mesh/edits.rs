@@ -362,9 +362,11 @@ impl<S: Coordinate> BodyMesh<S> {
             }
         }
         self.edges_were_known = self.edges_are_known();
-        match (self.elements.get_mut(), &self.edits) {
-            (Some(elements), Some(edits)) if elements.follows() => {
-                elements.append(&self.order, &edits.gone, TreeTriangle(0), 0);
+        match self.elements.get_mut() {
+            Some(elements) if elements.follows() => {
+                let none = Bits::default();
+                let gone = self.edits.as_ref().map_or(&none, |edits| &edits.gone);
+                elements.append(&self.order, gone, TreeTriangle(0), 0);
             }
             _ => drop(self.elements.take()),
         }

@@ -33,7 +33,7 @@ pub(crate) enum Refused {
 pub(crate) enum Fact {
     Number(i128),
     Position((f64, f64, f64)),
-    Vertices((u32, u32)),
+    Ends((u32, u32)),
     Text(String),
 }
 
@@ -54,7 +54,7 @@ facts! {
     u32, number => Self::Number(number.into());
     BodyId, body => Self::Number(body.0.into());
     [f64; 3], position => Self::Position(position.into());
-    [u32; 2], vertices => Self::Vertices(vertices.into());
+    [u32; 2], ends => Self::Ends(ends.into());
     String, text => Self::Text(text);
     &str, text => Self::Text(text.to_owned());
 }
@@ -161,8 +161,8 @@ impl From<pliant::Error> for Refused {
             EmptyTriangle { triangle }
             NoSuchVertex { vertex, vertices }
             NoSuchEdge { edge, edges }
-            MissingEdge { vertices }
-            NotAnEdge { edge, vertices }
+            MissingEdge { ends }
+            NotAnEdge { edge, ends }
             EmptyVertex { vertex }
             VertexInUse { vertex }
             NotACorner { triangle, vertex }

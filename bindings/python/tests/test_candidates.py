@@ -142,5 +142,5 @@ def test_edges_are_numbered_as_given() -> None:
     assert len(found) > 10 and not (np.isin(edges[::-1][found[:, 1]], edges[::-1][found[:, 3]]).all(1)).all()
     with pytest.raises(pliant.Error) as refused:
         world.set_edges(body, edges[1:])
-    assert refused.value.kind == "MissingEdge" and refused.value.vertices == tuple(edges[0].tolist())
+    assert refused.value.kind == "MissingEdge" and refused.value.ends == tuple(edges[0].tolist())
     assert (pickle.loads(pickle.dumps(world)).edges(body) == edges[::-1]).all()

@@ -159,14 +159,14 @@ pub enum ErrorKind {
     /// Edges that are given to a body lack one that its mesh has.
     MissingEdge {
         /// Its two vertices.
-        vertices: [u32; 2],
+        ends: [u32; 2],
     },
     /// Edges that are given to a body have one that its mesh has not, or have it twice.
     NotAnEdge {
         /// The row.
         edge: u32,
         /// Its two vertices.
-        vertices: [u32; 2],
+        ends: [u32; 2],
     },
     /// Edges are given to a body whose mesh was edited: their numbers follow the edits.
     EditedMesh,
@@ -364,14 +364,11 @@ impl ErrorKind {
                 "the edit names vertex {vertex}, but there are {vertices} vertices (counted from \
                  0); name one that is there"
             ),
-            Self::MissingEdge { vertices: [a, b] } => write!(
+            Self::MissingEdge { ends: [a, b] } => write!(
                 f,
                 "the edges lack the one from vertex {a} to vertex {b}; give every edge of the mesh"
             ),
-            Self::NotAnEdge {
-                edge,
-                vertices: [a, b],
-            } => write!(
+            Self::NotAnEdge { edge, ends: [a, b] } => write!(
                 f,
                 "edge {edge}, from vertex {a} to vertex {b}, is no edge of a triangle, or stands \
                  there before; give every edge of the mesh once"

@@ -48,8 +48,8 @@ class Error(ValueError):
       EmptyTriangle     the triangle was removed: triangle
       NoSuchVertex      vertex, vertices
       NoSuchEdge        edge, edges
-      MissingEdge       edges lack one of the mesh: vertices
-      NotAnEdge         edges have one that the mesh has not, or have it twice: edge, vertices
+      MissingEdge       edges lack one of the mesh: ends
+      NotAnEdge         edges have one that the mesh has not, or have it twice: edge, ends
       EditedMesh        edges are numbered before a mesh is edited
       EmptyVertex       the vertex went with its last triangle: vertex
       VertexInUse       a vertex that is placed is not empty: vertex
@@ -76,6 +76,12 @@ class Error(ValueError):
     vertices: int | None = None
     #: Number of triangles of the body.
     triangles: int | None = None
+    #: The edge, counted from 0.
+    edge: int | None = None
+    #: Number of edges of the body.
+    edges: int | None = None
+    #: Both vertices of the edge.
+    ends: tuple[int, int] | None = None
     #: Position of the vertex.
     position: tuple[float, float, float] | None = None
     #: Number of vertices of the body.

@@ -230,18 +230,18 @@ impl<S: Coordinate> BodyMesh<S> {
         let mut given: Vec<([u32; 2], u32)> = edges.iter().copied().zip(0..).collect();
         given.sort_unstable();
         let mut given = given.into_iter();
-        for &vertices in new.callers() {
+        for &ends in new.callers() {
             match given.next() {
-                Some((known, _)) if known == vertices => {}
-                Some((other, edge)) if other < vertices => {
-                    let vertices = other;
-                    return Err(ErrorKind::NotAnEdge { edge, vertices });
+                Some((known, _)) if known == ends => {}
+                Some((other, edge)) if other < ends => {
+                    let ends = other;
+                    return Err(ErrorKind::NotAnEdge { edge, ends });
                 }
-                _ => return Err(ErrorKind::MissingEdge { vertices }),
+                _ => return Err(ErrorKind::MissingEdge { ends }),
             }
         }
-        if let Some((vertices, edge)) = given.next() {
-            return Err(ErrorKind::NotAnEdge { edge, vertices });
+        if let Some((ends, edge)) = given.next() {
+            return Err(ErrorKind::NotAnEdge { edge, ends });
         }
         new.renumber(&edges, &self.topology);
         self.elements = OnceLock::from(Box::new(new));

@@ -760,21 +760,21 @@ fn edges_have_the_callers_numbers() {
         (
             &own[1..],
             ErrorKind::MissingEdge {
-                vertices: sorted[last as usize],
+                ends: sorted[last as usize],
             },
         ),
         (
             &[&own[..], &own[..1]].concat()[..],
             ErrorKind::NotAnEdge {
                 edge: last + 1,
-                vertices: sorted[last as usize],
+                ends: sorted[last as usize],
             },
         ),
         (
             &[&own[..], &[[0, 35]]].concat()[..],
             ErrorKind::NotAnEdge {
                 edge: last + 1,
-                vertices: [0, 35],
+                ends: [0, 35],
             },
         ),
     ] {

@@ -467,7 +467,7 @@ By `pliant bench shapes --rounds {shapes_record.rounds}` ([text](records/{shapes
 [JSON](records/{shapes.name}); one thread of
 an {shapes_record.machine['processor']}). Surfaces of 12,000 long thin triangles turn on a waving \
 sheet of 180,000, beside a disc of
-good triangles. Two sheets of 2,048 slide over each other in one plane. Fans of 5,000 and 20,000 \
+good triangles. Two sheets of 2,048 slide over each other in one plane. Lids of 5,000 and 20,000 \
 turn: candidates of
 elements at margin 0.
 

@@ -2,7 +2,7 @@
 //!
 //! Three families, each beside what is easy. Surfaces of long thin triangles turn on a waving
 //! sheet: boxes of such triangles are mostly empty. Sheets slide over each other in one plane, so
-//! most signs are exact zeros. All triangles of a fan have one vertex, so their boxes all overlap.
+//! most signs are exact zeros. All triangles of a lid have one vertex, so their boxes all overlap.
 
 use super::{DEFAULT, Experiment, Form, Planned, STEPS, titles, truth, whole};
 use crate::contest::{Contender, Contest, Query};
@@ -46,8 +46,8 @@ const PLANES: [(&str, fn([f32; 3]) -> [f32; 3]); 3] = [
 /// Nanoseconds that a candidate in a plane is to take in double precision.
 const NANOSECONDS: f64 = 400.0;
 
-const FEW: &str = "fan, few triangles";
-const MANY: &str = "fan, four times as many";
+const FEW: &str = "lid, few triangles";
+const MANY: &str = "lid, four times as many";
 /// Most times that four times as many triangles round one vertex may take: linear is 4.
 const LINEAR: f64 = 8.0;
 
@@ -91,12 +91,19 @@ fn plan(form: Form) -> Vec<Planned> {
     for (name, count) in [(FEW, count), (MANY, 4 * count)] {
         let truth = || -> Box<dyn Method> { Box::new(NearSweep::new(0.0)) };
         plan.push(planned(name, [1, steps], Query::Near, truth, move || {
-            let (triangles, positions) = thin::fan(count);
+            let (triangles, positions) = lid(count);
             let frames = turned(&positions, steps).into_iter().map(|at| vec![at]);
             motion(vec![triangles], &frames.collect::<Vec<_>>())
         }));
     }
     plan
+}
+
+/// A lid of `count` triangles round a middle that is above their rim.
+fn lid(count: u32) -> thin::Mesh {
+    let (_, rim) = thin::fan(count);
+    let triangles = (0..count).map(|at| [0, 1 + at, 1 + (at + 1) % count]);
+    (triangles.collect(), [vec![[0.0, 0.0, 0.3]], rim].concat())
 }
 
 /// Plans a contest of the library in one precision, or in both.

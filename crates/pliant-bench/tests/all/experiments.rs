@@ -48,8 +48,9 @@ fn small_forms_are_right_and_keep_to_the_schema() {
         );
         assert!(!done.contests.is_empty() && !done.claims.is_empty());
         for contest in &done.contests {
-            // Most bodies of `bodies` are still apart: it is about the broad phase.
-            let idle = contest.name.ends_with("bodies");
+            // Most bodies of `bodies` are still apart: it is about the broad phase. Nothing in a
+            // lid is near anything else: it is about finding that soon.
+            let idle = contest.name.ends_with("bodies") || contest.name.starts_with("lid");
             assert!(
                 contest.pairs.iter().sum::<usize>() > 0 || idle,
                 "{} is idle",

@@ -26,7 +26,7 @@ use pyo3::prelude::*;
 /// Raises pliant.Error: NoSuchBody, SameBody, Busy. BadDistance if distance is negative, infinite
 /// or NaN.
 ///
-/// Cost: both queries, O(n) for the bodies in the lists, and some hundred nanoseconds a row.
+/// Cost: both queries, O(n) for the bodies in the lists, and about a microsecond a row.
 #[pyfunction]
 pub(crate) fn feature_pairs<'py>(
     py: Python<'py>,

@@ -5,6 +5,7 @@
 //! Potential Contact*). Difference: rounding decides no feature.
 
 use crate::error::Error;
+use crate::geometry::vector::{dot, minus, square_of};
 use crate::ids::BodyId;
 use crate::queries::{
     CloseEdgeEdge, CloseVertexTriangle, ClosestFeatures, EdgeEdge, VertexTriangle,
@@ -107,7 +108,7 @@ impl FeaturePairs {
     /// Finds the contacts of these close pairs in the present shapes of a world, and forgets all
     /// before. If it is refused, there are no contacts.
     ///
-    /// Cost: O(n) for the bodies named, and some hundred nanoseconds a pair.
+    /// Cost: O(n) for the bodies named, and about a microsecond a pair, on one thread.
     ///
     /// # Errors
     ///
@@ -327,19 +328,14 @@ impl<S: Scalar> NamedBodies<'_, S> {
 
 /// The part of the way along an edge at which it is nearest to a point. It is nearest inside.
 fn along(p: [f64; 3], [from, to]: [[f64; 3]; 2]) -> f64 {
-    let (e, t) = (
-        [0, 1, 2].map(|axis| to[axis] - from[axis]),
-        [0, 1, 2].map(|axis| p[axis] - from[axis]),
-    );
+    let (e, t) = (minus(to, from), minus(p, from));
     // Scaled, so that no product is too small or too large.
     let size = e
         .iter()
         .chain(&t)
         .fold(0.0, |size: f64, x| size.max(x.abs()));
-    let dot = |a: &[f64; 3], b: &[f64; 3]| -> f64 {
-        (0..3).map(|axis| (a[axis] / size) * (b[axis] / size)).sum()
-    };
-    (dot(&t, &e) / dot(&e, &e)).clamp(0.0, 1.0)
+    let [e, t] = [e, t].map(|way| way.map(|x| x / size));
+    (dot(t, e) / square_of(e)).clamp(0.0, 1.0)
 }
 
 impl From<FeaturePairs> for Vec<FeaturePair> {

@@ -18,7 +18,7 @@ use crate::ring::Ring;
 /// `Edge(0)` is the inside of each. Mostly there is one pair of features. Parallel edges, and
 /// points on a border between features, have several. Then all are shown, some perhaps twice.
 ///
-/// Cost: some ten nanoseconds, or microseconds where rounding does not decide.
+/// Cost: below a microsecond, or microseconds where rounding does not decide.
 pub fn closest_features(elements: &Primitives, mut found: impl FnMut([Feature; 2])) {
     if let Some(features) = certain_features(elements) {
         return found(features);
@@ -243,8 +243,8 @@ mod tests {
         }
     }
 
-    /// Features are certainly the nearest if they are as near as the elements, by an oracle that
-    /// knows no features. The lowest of several are not as near anywhere on their borders.
+    /// All are as near as the elements, by an oracle that knows no features. What is certain in
+    /// double precision is not as near anywhere on its borders.
     #[test]
     fn features_are_as_near_as_the_elements_and_their_borders_are_not() {
         let mut random = Random::new(5);

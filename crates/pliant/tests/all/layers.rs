@@ -140,7 +140,10 @@ const LAYERS: [(&str, &[&str]); 25] = [
     ),
     ("changes", &["ids", "edit", "queries", "world"]),
     ("curves", &["ids", "error", "queries", "world"]),
-    ("feature_pairs", &["ids", "error", "queries", "world"]),
+    (
+        "feature_pairs",
+        &["ids", "error", "geometry", "queries", "world"],
+    ),
     ("lib", &[]),
 ];
 

@@ -151,6 +151,7 @@ struct Known<S> {
     groups: Vec<u32>,
     membership: u32,
     mask: u32,
+    environment: u32,
     loose: Option<([S; 3], [S; 3])>,
 }
 
@@ -298,6 +299,7 @@ impl<S: Scalar> Lived<S> {
                     positions,
                     membership,
                     mask,
+                    environment: 0,
                     loose,
                 });
             }
@@ -366,6 +368,9 @@ impl<S: Scalar> Lived<S> {
                 let set = self
                     .world
                     .set_filter(known.id, known.membership, known.mask);
+                set.expect("the body is there");
+                known.environment = u32::from(membership / 8 % 3);
+                let set = self.world.set_environment(known.id, known.environment);
                 set.expect("the body is there");
             }
             Call::Ignore(a, b) | Call::Unignore(a, b) => {
@@ -1047,7 +1052,9 @@ impl<S: Scalar> Lived<S> {
         let mut all = Vec::new();
         for (place, a) in self.known.iter().enumerate() {
             for b in &self.known[place + 1..] {
-                let filtered = a.membership & b.mask == 0 || b.membership & a.mask == 0;
+                let filtered = a.environment != b.environment
+                    || a.membership & b.mask == 0
+                    || b.membership & a.mask == 0;
                 let ignored = self
                     .ignored
                     .iter()

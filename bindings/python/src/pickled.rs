@@ -1,6 +1,6 @@
 //! State of a world as pickle writes it, and a world restored from it.
 //!
-//! Written are bodies by number, with shape, motion, filter, vertex groups and loose box, and the
+//! Written are bodies by number, with shape, motion, filter, environment, vertex groups and loose box, and the
 //! ignored pairs. Options are arguments of the constructor that pickle calls. Trees are not written
 //! but built anew on the present shapes, which changes no answer. Numbers of edges are written once
 //! somebody has asked for them, so they stay; older pickles lack them. A state that is read is
@@ -26,6 +26,7 @@ struct CopiedBody {
     groups: Vec<u32>,
     edges: Option<Rows<u32, 2>>,
     filter: (u32, u32),
+    environment: u32,
     loose_box: Option<Corners>,
 }
 
@@ -59,6 +60,8 @@ struct WrittenBody<'py> {
     #[pyo3(default)]
     edges: Option<Bound<'py, PyArray2<u32>>>,
     filter: (u32, u32),
+    #[pyo3(default)]
+    environment: u32,
     loose_box: Option<Corners>,
 }
 
@@ -84,6 +87,7 @@ impl Copied {
                     groups,
                     edges: edges.map(|edges| Rows(edges.to_vec())),
                     filter: world.filter(id)?,
+                    environment: world.environment(id)?,
                     loose_box: state.loose_box(id)?,
                 })
             });
@@ -130,7 +134,10 @@ impl Written<'_> {
                 }
             }
             let (membership, mask) = written.filter;
-            with_world!(&mut state.world, world => world.set_filter(body, membership, mask)?);
+            with_world!(&mut state.world, world => {
+                world.set_filter(body, membership, mask)?;
+                world.set_environment(body, written.environment)?;
+            });
             state.set_loose_box(body, written.loose_box)?;
             if let Some(end) = &written.end {
                 let end = CopiedCoordinates::of(end)?;

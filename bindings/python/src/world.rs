@@ -51,7 +51,8 @@ use std::borrow::Cow;
 ///   free_step, collision_free_step, advance_motion, finish_motion
 /// - change of a mesh: set_mesh, edit, apply, live_triangles, live_vertices, mesh_revision,
 ///   components, split, fuse, weld
-/// - who may meet: set_filter, filter, ignore, unignore, ignored, set_vertex_groups, vertex_groups
+/// - who may meet: set_filter, filter, set_environment, environment, ignore, unignore, ignored,
+///   set_vertex_groups, vertex_groups
 /// - speed: options, rebuild, tree_quality, set_loose_box, loose_box, vertex_order, statistics,
 ///   memory_usage
 /// - the tree itself: tree_shape, tree_cut, tree_boxes, validate
@@ -610,6 +611,24 @@ impl World {
     /// Raises pliant.Error: NoSuchBody.
     fn filter(&self, py: Python<'_>, body: Body) -> Result<(u32, u32)> {
         ask!(self, py, world => world.filter(body.0)?)
+    }
+
+    /// Puts a body into an environment, a number from 0 to 2^32 - 1; at first all are in 0.
+    ///
+    /// Bodies of different environments do not meet, whatever masks say. So thousands of small
+    /// worlds fit into one, each in the same place, at the cost of far apart. Selection.WORLD and
+    /// EVERYTHING heed environments; between and within do not.
+    ///
+    /// Raises pliant.Error: NoSuchBody. OverflowError for a number outside 0 to 2^32 - 1.
+    fn set_environment(&self, py: Python<'_>, body: Body, environment: Number) -> Result<()> {
+        ask!(self, py, world => world.set_environment(body.0, environment.0)?)
+    }
+
+    /// Environment of a body: see set_environment.
+    ///
+    /// Raises pliant.Error: NoSuchBody.
+    fn environment(&self, py: Python<'_>, body: Body) -> Result<u32> {
+        ask!(self, py, world => world.environment(body.0)?)
     }
 
     /// Keeps two bodies apart in queries of the whole world, or one body from itself.

@@ -259,6 +259,7 @@ def test_a_world_can_be_pickled() -> None:
     world.add([[0, 1, 2]], np.eye(3, dtype=np.float32))
     world.set_loose_box(1, ((-1, 0, 0), (2, 2, 0.1 + 1)))
     world.set_filter(2, 1, 6)
+    world.set_environment(3, 9)
     world.ignore(1, 1)
     world.ignore(3, 1)
     world.remove(0)
@@ -271,6 +272,7 @@ def test_a_world_can_be_pickled() -> None:
             np.testing.assert_array_equal(again.positions(body), world.positions(body))
             np.testing.assert_array_equal(again.triangles(body), world.triangles(body))
             assert again.filter(body) == world.filter(body)
+            assert again.environment(body) == world.environment(body) == (9 if body == 3 else 0)
             assert again.loose_box(body) == world.loose_box(body)
         assert again.ignored() == world.ignored() == [(1, 1), (1, 3)]
         assert again.add([[0, 1, 2]], np.eye(3, dtype=np.float32)) == 5

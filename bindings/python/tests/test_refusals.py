@@ -84,6 +84,7 @@ def test_every_method_that_names_a_body_refuses_one_that_is_not_there() -> None:
         lambda: world.write_positions(0, lambda out: None),
         lambda: world.rebuild(0),
         lambda: world.set_filter(0, 1, 1),
+        lambda: world.set_environment(0, 1),
         lambda: world.ignore(0, 1),
         lambda: world.unignore(1, 0),
         lambda: world.set_loose_box(0, None),
@@ -284,6 +285,10 @@ def test_filters_boxes_and_small_questions() -> None:
     world.set_filter(1, 2, 2)
     assert len(of_world.all()) == 0
     world.set_filter(1, 2, 1)
+    assert len(of_world.all()) == len(every)
+    world.set_environment(0, 2**32 - 1)
+    assert len(of_world.all()) == 0 and world.environment(0) == 2**32 - 1
+    world.set_environment(1, 2**32 - 1)
     assert len(of_world.all()) == len(every)
     world.set_loose_box(1, None)
     # A sheet that is folded onto itself: bodies meet themselves unless their filter or ignore says no.

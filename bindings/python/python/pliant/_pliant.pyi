@@ -201,6 +201,10 @@ class World:
         """Pairs of bodies that ignore keeps apart, a sorted list of (lower, higher) numbers."""
     def loose_box(self, body: SupportsIndex) -> tuple[list[float], list[float]] | None:
         """Loose box of a body, (lower, upper) corners as lists of three floats, or None."""
+    def set_environment(self, body: SupportsIndex, environment: int) -> None:
+        """Puts a body into an environment, a number from 0 to 2^32 - 1; at first all are in 0."""
+    def environment(self, body: SupportsIndex) -> int:
+        """Environment of a body: see set_environment."""
     def ignore(self, a: SupportsIndex, b: SupportsIndex) -> None:
         """Keeps two bodies apart in queries of the whole world, or one body from itself."""
     def unignore(self, a: SupportsIndex, b: SupportsIndex) -> None:

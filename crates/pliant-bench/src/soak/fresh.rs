@@ -36,6 +36,8 @@ impl<S: Scalar> Soak<S> {
             self.good("apply in a fresh world", applied)?;
             let set = fresh.set_filter(id, body.membership, body.mask);
             self.good("set_filter of a fresh world", set)?;
+            let set = fresh.set_environment(id, body.environment);
+            self.good("set_environment of a fresh world", set)?;
             if let Some(end) = &body.end {
                 let set = fresh.set_motion(id, end);
                 self.good("set_motion of a fresh world", set)?;

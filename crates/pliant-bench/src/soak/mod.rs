@@ -97,6 +97,7 @@ struct Known<S> {
     end: Option<Vec<[S; 3]>>,
     membership: u32,
     mask: u32,
+    environment: u32,
     loose: Option<([S; 3], [S; 3])>,
 }
 
@@ -313,6 +314,7 @@ impl<S: Scalar> Soak<S> {
             end: None,
             membership: u32::MAX,
             mask: u32::MAX,
+            environment: 0,
             loose: None,
         });
         Ok(())
@@ -432,7 +434,11 @@ impl<S: Scalar> Soak<S> {
                 let (membership, mask) = (bits(), bits());
                 (self.known[some].membership, self.known[some].mask) = (membership, mask);
                 let set = self.world.set_filter(id, membership, mask);
-                self.good("set_filter", set)
+                self.good("set_filter", set)?;
+                let environment = self.random.below(8) / 7;
+                self.known[some].environment = environment;
+                let set = self.world.set_environment(id, environment);
+                self.good("set_environment", set)
             }
             8 => self.ignore_or_not(id),
             9..11 => self.hold_or_let_go(some),

@@ -101,7 +101,15 @@ impl<S: Coordinate> Body<S> {
         self.filter.masks()
     }
 
-    /// Whether the masks of two bodies, or of one and itself, let them meet.
+    pub(crate) fn set_environment(&mut self, environment: u32) {
+        self.filter.set_environment(environment);
+    }
+
+    pub(crate) fn environment(&self) -> u32 {
+        self.filter.environment()
+    }
+
+    /// Whether environments and masks of two bodies, or of one and itself, let them meet.
     pub(crate) fn may_meet(&self, other: &Self) -> bool {
         self.filter.lets_meet(&other.filter)
     }

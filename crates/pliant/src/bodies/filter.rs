@@ -1,4 +1,4 @@
-//! Collision filters of a body: membership and mask, a loose box, groups of vertices.
+//! Collision filters of a body: membership and mask, environment, a loose box, groups of vertices.
 
 use crate::error::ErrorKind;
 use crate::geometry::Bounds;
@@ -10,6 +10,7 @@ use crate::queries::Groups;
 pub(crate) struct Filter<S> {
     membership: u32,
     mask: u32,
+    environment: u32,
     loose: Option<Bounds<S>>,
     /// Collision groups of vertices. None where all vertices meet.
     groups: Option<Box<VertexGroups>>,
@@ -36,6 +37,7 @@ impl<S: Copy> Filter<S> {
         Self {
             membership: u32::MAX,
             mask: u32::MAX,
+            environment: 0,
             loose: None,
             groups: None,
         }
@@ -58,10 +60,20 @@ impl<S: Copy> Filter<S> {
         (self.membership, self.mask)
     }
 
-    /// Whether the masks of two bodies let them meet: each membership shares a bit with the other
-    /// mask.
+    pub(crate) fn set_environment(&mut self, environment: u32) {
+        self.environment = environment;
+    }
+
+    pub(crate) fn environment(&self) -> u32 {
+        self.environment
+    }
+
+    /// Whether two bodies may meet: they are in one environment, and each membership shares a bit
+    /// with the other mask.
     pub(crate) fn lets_meet(&self, other: &Self) -> bool {
-        self.membership & other.mask != 0 && other.membership & self.mask != 0
+        self.environment == other.environment
+            && self.membership & other.mask != 0
+            && other.membership & self.mask != 0
     }
 
     /// Loose box, which holds every pose, if there is one.

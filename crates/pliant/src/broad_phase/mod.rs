@@ -31,6 +31,14 @@ const MOST_FOR_BRUTE_FORCE: usize = 100;
 /// tree takes over.
 const MOST_PAIRS_A_BODY: usize = 16;
 
+/// Boxes of all bodies, and their environments, both by rank.
+#[derive(Clone, Copy)]
+pub(crate) struct Boxes<'b> {
+    pub(crate) of_bodies: &'b [Aabb],
+    /// Bodies of different environments do not meet. Empty if all bodies are in one.
+    pub(crate) environments: &'b [u32],
+}
+
 /// Broad phase of a world, and its memory between passes.
 #[derive(Debug)]
 pub(crate) struct BroadPhase {
@@ -65,17 +73,18 @@ impl BroadPhase {
     ///
     /// The bodies are the last pass's without the ones removed by [`BroadPhase::remove`], and then
     /// added bodies at the end.
-    pub(crate) fn begin(&mut self, boxes: &[Aabb], interrupt: &Interrupt) {
-        self.pass.begin(boxes.len());
+    pub(crate) fn begin(&mut self, boxes: Boxes, interrupt: &Interrupt) {
+        let of_bodies = boxes.of_bodies;
+        self.pass.begin(of_bodies.len());
         self.way = match self.rule {
-            crate::BroadPhase::Auto if boxes.len() > MOST_FOR_BRUTE_FORCE => Way::Tree,
+            crate::BroadPhase::Auto if of_bodies.len() > MOST_FOR_BRUTE_FORCE => Way::Tree,
             crate::BroadPhase::Auto | crate::BroadPhase::BruteForce => Way::BruteForce,
             crate::BroadPhase::SweepAndPrune => Way::Sweep,
             crate::BroadPhase::Tree => Way::Tree,
         };
         if self.way == Way::Sweep {
-            let most = boxes.len() * MOST_PAIRS_A_BODY;
-            let found = self.sweep.overlapping(boxes, most, interrupt);
+            let most = of_bodies.len() * MOST_PAIRS_A_BODY;
+            let found = self.sweep.overlapping(of_bodies, most, interrupt);
             if let ControlFlow::Break(why) = found {
                 self.sweep = SweepAndPrune::default();
                 if why == Unfinished::TooMany {
@@ -89,13 +98,13 @@ impl BroadPhase {
     }
 
     /// Shows the next pairs of the pass that are kept, in order, about `most` at once. Returns
-    /// whether more may follow.
+    /// whether more may follow. Pairs of different environments may come or not.
     ///
     /// A call looks at all pairs of at least one body. After an interruption it returns true.
     pub(crate) fn next(
         &mut self,
         threads: (Executor, Instructions),
-        boxes: &[Aabb],
+        boxes: Boxes,
         (most, keep): (usize, Keep),
         show: Show,
     ) -> bool {
@@ -112,6 +121,11 @@ impl BroadPhase {
             self.tree.end_of_pass(tested);
         }
         done.is_none()
+    }
+
+    /// Has the bodies ordered anew, because some are in other environments.
+    pub(crate) fn regroup(&mut self) {
+        self.tree.forget_order();
     }
 
     /// Removes the body of a rank. The ranks of later bodies move down by one.
@@ -164,6 +178,10 @@ mod tests {
         let threads = &Threads::private(NonZeroUsize::new(threads).unwrap());
         let interrupt = &Interrupt::default();
         let executor = Executor { threads, interrupt };
+        let boxes = Boxes {
+            of_bodies: boxes,
+            environments: &[],
+        };
         broad_phase.begin(boxes, interrupt);
         let mut pairs = Vec::new();
         for (instructions, most) in Instructions::all().into_iter().cycle().zip(1..) {
@@ -255,6 +273,57 @@ mod tests {
                 let found = pairs(&mut BroadPhase::new(rule), &boxes);
                 assert_eq!(found, expected(&boxes), "{count} {rule:?}");
             }
+        }
+    }
+
+    /// Environments in one place cost what they cost apart, also when they change.
+    #[test]
+    fn environments_in_one_place_cost_what_they_cost_apart() {
+        let threads = &Threads::private(NonZeroUsize::MIN);
+        let interrupt = &Interrupt::default();
+        let executor = Executor { threads, interrupt };
+        let instructions = Instructions::all()[0];
+        let mut random = Lcg(7);
+        let bodies = |random: &mut Lcg| (0..3000).map(|_| random.cube(4)).collect::<Vec<_>>();
+        let ask = |broad_phase: &mut BroadPhase, boxes: Boxes| {
+            let environment = |rank: Rank| boxes.environments.get(rank.index());
+            let keep: Keep = &|[a, b]| environment(a) == environment(b);
+            let mut found = Vec::new();
+            broad_phase.begin(boxes, interrupt);
+            let more = (usize::MAX, keep);
+            let show: Show = &mut |pairs| found.extend_from_slice(pairs);
+            assert!(!broad_phase.next((executor, instructions), boxes, more, show));
+            found
+        };
+        for _ in 0..3 {
+            let of_bodies = bodies(&mut random);
+            let environments: Vec<u32> = of_bodies.iter().map(|_| random.below(600)).collect();
+            let apart = |(value, &by): (&Aabb, &u32)| {
+                let by = 8.0 * by as f32;
+                let [lo, hi] = [value.lo, value.hi].map(|[x, y, z]| [x + by, y, z]);
+                Aabb { lo, hi }
+            };
+            let apart: Vec<Aabb> = of_bodies.iter().zip(&environments).map(apart).collect();
+            let in_one_place = Boxes {
+                of_bodies: &of_bodies,
+                environments: &environments,
+            };
+            let far_apart = Boxes {
+                of_bodies: &apart,
+                environments: &[],
+            };
+            let [mut one, mut other] = [(); 2].map(|()| BroadPhase::new(crate::BroadPhase::Tree));
+            let none = Boxes {
+                environments: &[],
+                ..in_one_place
+            };
+            assert!(ask(&mut one, none).len() > 500_000);
+            one.regroup();
+            let expected = ask(&mut other, far_apart);
+            assert!(expected.len() > 1000, "{}", expected.len());
+            assert_eq!(ask(&mut one, in_one_place), expected);
+            let tested = [one.tree.tested(), other.tree.tested()];
+            assert!(10 * tested[0] < 11 * tested[1], "{tested:?}");
         }
     }
 

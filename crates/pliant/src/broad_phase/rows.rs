@@ -1,8 +1,7 @@
 //! Rows of a pass, found by several threads: a job has some consecutive bodies and their pairs.
 
 use super::body_tree::{BodyTree, Descent};
-use super::{Overlap, brute_force};
-use crate::geometry::Aabb;
+use super::{Boxes, Overlap, brute_force};
 use crate::held::held;
 use crate::ids::Rank;
 use crate::kernels::Instructions;
@@ -58,11 +57,11 @@ impl Pass {
         &mut self,
         (executor, instructions): (Executor, Instructions),
         tree: Option<&BodyTree>,
-        boxes: &[Aabb],
+        boxes: Boxes,
         (most, keep): (usize, Keep),
         show: Show,
     ) -> Option<usize> {
-        let end = boxes.len() as u32;
+        let end = boxes.of_bodies.len() as u32;
         let left = (end - self.next) as usize;
         let nanoseconds = Grain::ROWS.time(left);
         let threads = executor.threads_for(nanoseconds);
@@ -70,7 +69,7 @@ impl Pass {
         if threads > 1 {
             // Each finds one row at least, which may be all that is wanted.
             let rows = 1 + most / (1 + self.pairs_a_row);
-            let longest = 1 + JOBS_A_THREAD * most / boxes.len();
+            let longest = 1 + JOBS_A_THREAD * most / boxes.of_bodies.len();
             jobs = (JOBS_A_THREAD * threads).min(rows).min(longest);
             most_of_job = 2 * most.div_ceil(jobs);
             // Half of that is expected, so that few rows are found in vain.
@@ -125,7 +124,7 @@ impl Rows {
         &mut self,
         (executor, instructions): (Executor, Instructions),
         tree: Option<&BodyTree>,
-        boxes: &[Aabb],
+        boxes: Boxes,
         (most, keep): (usize, Keep),
     ) {
         while !self.rest.is_empty() && self.pairs.len() < most && !executor.is_interrupted() {
@@ -133,8 +132,8 @@ impl Rows {
             let (pairs, descent) = (&mut self.pairs, &mut self.descent);
             let before = pairs.len();
             match tree {
-                Some(tree) => tree.row(instructions, body, &boxes[body.index()], descent, pairs),
-                None => brute_force::row(boxes, body, pairs),
+                Some(tree) => tree.row(instructions, body, boxes, descent, pairs),
+                None => brute_force::row(boxes.of_bodies, body, pairs),
             }
             let _ = pairs.extract_if(before.., |&mut pair| !keep(pair)).count();
             self.rest.start += 1;

@@ -4,8 +4,8 @@
 //! place thus cost time but no memory. A query that ends early searches for no pairs that it does
 //! not need. If one batch holds all pairs, it is kept until something moves.
 
-use crate::bodies::Bodies;
-use crate::broad_phase::{BroadPhase, Keep, Overlap, Show};
+use crate::bodies::{Bodies, Body};
+use crate::broad_phase::{Boxes, BroadPhase, Keep, Overlap, Show};
 use crate::error::Error;
 use crate::geometry::{Aabb, Origin};
 use crate::held::held;
@@ -32,6 +32,8 @@ pub(crate) struct BodyPairs {
     /// loose ones where there are any.
     exact: Vec<Aabb>,
     broad: Vec<Aabb>,
+    /// Environment of every body, by rank. Empty if all are in one.
+    environments: Vec<u32>,
     /// Last batch of different bodies of the whole world, in the order of ids, the smaller first.
     of_world: Vec<BodyPair>,
     /// Kind of bodies' boxes behind `of_world`, if that holds all pairs and nothing has changed
@@ -66,6 +68,7 @@ impl BodyPairs {
             broad_phase: BroadPhase::new(rule),
             exact: Vec::new(),
             broad: Vec::new(),
+            environments: Vec::new(),
             of_world: Vec::new(),
             holds_for: None,
             named: Vec::new(),
@@ -77,6 +80,12 @@ impl BodyPairs {
     /// Drops the known pairs: a body has moved, or a filter has changed.
     pub(crate) fn forget(&mut self) {
         self.holds_for = None;
+    }
+
+    /// Drops the known pairs, because a body is in another environment.
+    pub(crate) fn regroup(&mut self) {
+        self.broad_phase.regroup();
+        self.forget();
     }
 
     /// Removes the body of a rank; the ranks of later bodies decrease by one.
@@ -126,7 +135,11 @@ impl BodyPairs {
                 // Some boxes may be missing, and the broad phase would keep what it made of them.
                 return Ok(());
             }
-            self.broad_phase.begin(&self.broad, executor.interrupt);
+            let boxes = Boxes {
+                of_bodies: &self.broad,
+                environments: &self.environments,
+            };
+            self.broad_phase.begin(boxes, executor.interrupt);
         }
         Ok(())
     }
@@ -179,8 +192,13 @@ impl BodyPairs {
             of_world,
             broad_phase,
             broad,
+            environments,
             ..
         } = self;
+        let boxes = Boxes {
+            of_bodies: broad,
+            environments,
+        };
         let places = |pair: Overlap| pair.map(|rank| bodies.places()[rank.index()]);
         let keep = |pair: Overlap| {
             let [exact_a, exact_b] = pair.map(|rank| &exact[rank.index()]);
@@ -192,7 +210,7 @@ impl BodyPairs {
         while of_world.len() < most && !executor.is_interrupted() {
             let more = (most - of_world.len(), &keep as Keep);
             let show: Show = &mut |found| of_world.extend(found.iter().map(|&pair| places(pair)));
-            let are_more = broad_phase.next((executor, instructions), broad, more, show);
+            let are_more = broad_phase.next((executor, instructions), boxes, more, show);
             if !are_more {
                 return false;
             }
@@ -208,8 +226,18 @@ impl BodyPairs {
         origin: Origin,
         executor: Executor,
     ) {
-        let Self { exact, broad, .. } = self;
+        let Self {
+            exact,
+            broad,
+            environments,
+            ..
+        } = self;
         let ranks = bodies.places();
+        environments.clear();
+        environments.extend(bodies.in_order().map(Body::environment));
+        if environments.iter().all(|it| *it == environments[0]) {
+            environments.clear();
+        }
         for list in [&mut *exact, &mut *broad] {
             list.resize(ranks.len(), Aabb::EMPTY);
         }
@@ -234,4 +262,4 @@ impl BodyPairs {
     }
 }
 
-held!(BodyPairs: exact[], broad[], of_world[], named[], broad_phase);
+held!(BodyPairs: exact[], broad[], environments[], of_world[], named[], broad_phase);

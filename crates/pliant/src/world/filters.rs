@@ -1,4 +1,4 @@
-//! Filters, ignored pairs, vertex groups and loose boxes: who may meet whom.
+//! Filters, environments, ignored pairs, vertex groups and loose boxes: who may meet whom.
 
 use super::handle::World;
 use super::scalar::Scalar;
@@ -32,6 +32,38 @@ impl<S: Scalar> World<S> {
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn filter(&self, body: BodyId) -> Result<(u32, u32), Error> {
         Ok(self.state().body(body)?.filter())
+    }
+
+    /// Puts a body into an environment, a number: bodies of different ones do not meet in queries of
+    /// the whole world.
+    ///
+    /// Masks cannot change that. At first all bodies are in environment 0. So thousands of small
+    /// worlds fit into one, each in the same place, as learning needs them. More than 100 bodies cost
+    /// what they would cost if the environments were far apart; the rule [`BroadPhase`] chooses must
+    /// be `Auto` or `Tree` for that. A query that names its bodies does not look at environments.
+    ///
+    /// Cost: O(1). The next query orders all bodies anew, O(b log b) for b bodies.
+    ///
+    /// [`BroadPhase`]: crate::BroadPhase
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    #[doc(alias = "world_index")]
+    pub fn set_environment(&mut self, body: BodyId, environment: u32) -> Result<(), Error> {
+        let body = self.state_mut().common.bodies.get_mut(body)?;
+        body.set_environment(environment);
+        self.state_mut().common.body_pairs.regroup();
+        Ok(())
+    }
+
+    /// Environment of a body, as [`set_environment`](Self::set_environment) sets it.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn environment(&self, body: BodyId) -> Result<u32, Error> {
+        Ok(self.state().body(body)?.environment())
     }
 
     /// Ignores a pair of bodies: from now on they do not meet in queries of the whole world.

@@ -323,6 +323,7 @@ impl Piece {
 /// Properties that the pieces of a body inherit from it.
 struct Inherited<S> {
     filter: (u32, u32),
+    environment: u32,
     loose: Option<([S; 3], [S; 3])>,
     /// Bodies that it does not meet.
     ignored: Vec<BodyId>,
@@ -334,6 +335,7 @@ impl<S: Scalar> Inherited<S> {
         let with_body = ignored.into_iter().filter(|pair| pair.contains(&body));
         Ok(Self {
             filter: world.filter(body)?,
+            environment: world.environment(body)?,
             loose: world.loose_box(body)?,
             ignored: with_body
                 .map(|[a, b]| if a == body { b } else { a })
@@ -344,6 +346,7 @@ impl<S: Scalar> Inherited<S> {
     fn give(&self, world: &mut World<S>, body: BodyId, new: &[BodyId]) -> Result<(), Error> {
         for (place, &piece) in new.iter().enumerate() {
             world.set_filter(piece, self.filter.0, self.filter.1)?;
+            world.set_environment(piece, self.environment)?;
             world.set_loose_box(piece, self.loose)?;
             for &other in &self.ignored {
                 world.ignore(piece, other)?;

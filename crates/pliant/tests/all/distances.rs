@@ -317,6 +317,12 @@ fn filters_are_for_the_nearest_body_only() {
     world.set_filter(c, 2, 2).unwrap();
     world.set_filter(a, 1, 1).unwrap();
     assert!(world.nearest_body(a, 9.0).unwrap().is_none());
+
+    world.set_environment(b, 3).unwrap();
+    assert_eq!(world.distance(b, c, 9.0).unwrap().unwrap().distance, 4.0);
+    assert!(world.nearest_body(b, 9.0).unwrap().is_none());
+    world.set_environment(c, 3).unwrap();
+    assert_eq!(world.nearest_body(b, 9.0).unwrap().unwrap().pair.body_b, c);
 }
 
 /// Corners of a triangle on one side of the plane x + 2 y + 2 z = u, the first of them at 0.

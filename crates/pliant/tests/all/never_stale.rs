@@ -15,6 +15,7 @@ struct Known<S> {
     positions: Vec<[S; 3]>,
     membership: u32,
     mask: u32,
+    environment: u32,
 }
 
 /// Answers of a world to all selections.
@@ -88,6 +89,7 @@ fn fresh_answers<S: Scalar>(
     for body in known {
         let id = world.add(&body.triangles, &body.positions).unwrap();
         world.set_filter(id, body.membership, body.mask).unwrap();
+        world.set_environment(id, body.environment).unwrap();
     }
     let id_of = |id: BodyId| {
         known
@@ -134,6 +136,7 @@ fn assert_fresh<S: Scalar>(
     for body in known {
         let filter = (body.membership, body.mask);
         assert_eq!(world.filter(body.id), Ok(filter), "{when}");
+        assert_eq!(world.environment(body.id), Ok(body.environment), "{when}");
     }
     let alive = |id: &BodyId| known.iter().any(|body| body.id == *id);
     let pairs = ignored.iter().map(|&(a, b)| [a.min(b), a.max(b)]);
@@ -176,7 +179,7 @@ fn check_lives<S: Scalar>(seeds: std::ops::Range<u64>, shift: f64, convert: fn(f
         let mut ignored: Vec<(BodyId, BodyId)> = Vec::new();
         for _ in 0..60 {
             let some = (!known.is_empty()).then(|| random.below(known.len() as u32) as usize);
-            match (random.below(18), some) {
+            match (random.below(19), some) {
                 (13, _) => here = if here == 0.0 { shift } else { 0.0 },
                 // The world goes on as its copy, and changes to the original do not reach the copy.
                 (15, _) => {
@@ -208,6 +211,7 @@ fn check_lives<S: Scalar>(seeds: std::ops::Range<u64>, shift: f64, convert: fn(f
                         positions,
                         membership: all,
                         mask: all,
+                        environment: 0,
                     });
                 }
                 (2, Some(some)) => {
@@ -256,6 +260,11 @@ fn check_lives<S: Scalar>(seeds: std::ops::Range<u64>, shift: f64, convert: fn(f
                     let (membership, mask) = (1 << random.below(3), 7 ^ (1 << random.below(3)));
                     (known[some].membership, known[some].mask) = (membership, mask);
                     world.set_filter(known[some].id, membership, mask).unwrap();
+                }
+                (18, Some(some)) => {
+                    known[some].environment = random.below(3);
+                    let (id, environment) = (known[some].id, known[some].environment);
+                    world.set_environment(id, environment).unwrap();
                 }
                 (9, Some(some)) => {
                     let other = random.below(known.len() as u32) as usize;
@@ -448,6 +457,7 @@ fn check_by_name<S: Scalar>(convert: fn(f32) -> S) {
                 positions,
                 membership: u32::MAX,
                 mask: u32::MAX,
+                environment: 0,
             })
             .collect();
         let check = |world: &mut World<S>, known: &[Known<S>], when| {

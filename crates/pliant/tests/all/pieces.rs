@@ -43,6 +43,7 @@ fn split_and_fused_again_it_finds_what_it_found() {
     let body = world.add(&triangles, &positions).unwrap();
     world.ignore(body, other).unwrap();
     world.set_filter(body, 0b110, 0b111).unwrap();
+    world.set_environment(body, 7).unwrap();
     let groups: Vec<u32> = (0..positions.len() as u32).map(|it| it % 5).collect();
     world.set_vertex_groups(body, &groups).unwrap();
     let everywhere = Some(([-9.0; 3], [9.0; 3]));
@@ -80,6 +81,7 @@ fn split_and_fused_again_it_finds_what_it_found() {
         let of_piece = piece.vertices.iter().map(|&it| groups[it as usize]);
         assert!(of_piece.eq(world.vertex_groups(piece.body).unwrap()));
         assert_eq!(world.filter(piece.body), Ok((0b110, 0b111)));
+        assert_eq!(world.environment(piece.body), Ok(7));
         assert_eq!(world.loose_box(piece.body), Ok(everywhere));
         assert!(world.ignored().contains(&[other, piece.body]));
         assert!(!world.ignored().contains(&[body, piece.body]));

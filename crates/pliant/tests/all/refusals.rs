@@ -188,6 +188,8 @@ fn bodies_that_are_not_there() {
         assert_eq!(world.remove(stranger).unwrap_err(), error);
         assert_eq!(world.rebuild(stranger).unwrap_err(), error);
         assert_eq!(world.set_filter(stranger, 0, 0).unwrap_err(), error);
+        assert_eq!(world.set_environment(stranger, 0).unwrap_err(), error);
+        assert_eq!(world.environment(stranger).unwrap_err(), error);
         assert_eq!(world.set_loose_box(stranger, None).unwrap_err(), error);
         assert_eq!(world.ignore(stranger, body).unwrap_err(), error);
         assert_eq!(world.unignore(body, stranger).unwrap_err(), error);

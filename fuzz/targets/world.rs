@@ -1230,6 +1230,7 @@ impl<S> Known<S> {
             positions: &self.positions,
             end: self.end.as_deref(),
             groups: Some(&self.groups),
+            rest: self.rest.as_deref(),
         }
     }
 }

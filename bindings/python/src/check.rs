@@ -11,7 +11,7 @@ use crate::usd::{self, Raised};
 use numpy::{IntoPyArray, PyArray1};
 use pliant_check::{
     Baseline, BodyFacts, BodyThere, Check as Running, Error, FirstImpact, Found, Frames, Group,
-    Interval, Kinds, Life, Place, Settings, Split,
+    Interval, Kinds, Life, Place, Rest, Settings, Split,
 };
 use pliant_io::{OpenOptions, shown};
 use pyo3::exceptions::PyUserWarning;
@@ -78,7 +78,7 @@ impl Changed {
     }
 }
 
-/// Baseline: a frame or a file whose pairs are left out.
+/// Baseline, whose pairs are left out, or rest shape: a frame or a file.
 #[derive(FromPyObject)]
 pub(crate) enum Known {
     Frame(i64),
@@ -86,10 +86,17 @@ pub(crate) enum Known {
 }
 
 impl Known {
-    fn understood(self) -> Result<Baseline> {
+    fn baseline(self) -> Result<Baseline> {
         match self {
-            Self::Frame(frame) => from_zero(frame).map(Baseline::Frame),
+            Self::Frame(frame) => from_zero("baseline", frame).map(Baseline::Frame),
             Self::File(file) => Ok(Baseline::File(file)),
+        }
+    }
+
+    fn rest(self) -> Result<Rest> {
+        match self {
+            Self::Frame(frame) => from_zero("rest", frame).map(Rest::Frame),
+            Self::File(file) => Ok(Rest::File(file)),
         }
     }
 }
@@ -137,8 +144,10 @@ impl Name {
 /// What is found:
 ///
 /// - within: a distance of at least 0, in the unit of the files. Finds pairs of triangles of
-///   different bodies at most that far apart; Frame.distance is the least. Not for one body alone,
-///   with itself, crossing or swept
+///   different bodies at most that far apart; Frame.distance is the least. Not with crossing or
+///   swept; one body alone, and itself, need rest
+/// - rest: a frame number, or a file with the mesh of the one body. With within, pairs of one file
+///   are left out that are as close in this rest shape
 /// - crossing: leaves out places where surfaces only touch, as along a cut. No triangles cross
 ///   there, and no surface passes through another, not even exactly at edges and vertices. Where
 ///   sides are unclear a place stays. Frame.only_touching counts the pairs. Not with within
@@ -174,15 +183,15 @@ impl Name {
 #[pyfunction]
 #[pyo3(
     signature = (
-        *paths, itself=false, within=None, crossing=false, ignore_adjacent=false, swept=false,
-        first=false, weld=true, weld_tolerance=0.0, split=None, groups=None, ignore=None,
-        baseline=None, skip_degenerate=false, crossing_edges=false, places=false, frames=None,
-        clip=None, fps=30.0, threads=Threads::Count(1)
+        *paths, itself=false, within=None, rest=None, crossing=false, ignore_adjacent=false,
+        swept=false, first=false, weld=true, weld_tolerance=0.0, split=None, groups=None,
+        ignore=None, baseline=None, skip_degenerate=false, crossing_edges=false, places=false,
+        frames=None, clip=None, fps=30.0, threads=Threads::Count(1)
     ),
-    text_signature = "(*paths, itself=False, within=None, crossing=False, ignore_adjacent=False, \
-        swept=False, first=False, weld=True, weld_tolerance=0.0, split=None, groups=None, \
-        ignore=None, baseline=None, skip_degenerate=False, crossing_edges=False, places=False, \
-        frames=None, clip=None, fps=30.0, threads=1)"
+    text_signature = "(*paths, itself=False, within=None, rest=None, crossing=False, \
+        ignore_adjacent=False, swept=False, first=False, weld=True, weld_tolerance=0.0, \
+        split=None, groups=None, ignore=None, baseline=None, skip_degenerate=False, \
+        crossing_edges=False, places=False, frames=None, clip=None, fps=30.0, threads=1)"
 )]
 #[expect(
     clippy::too_many_arguments,
@@ -194,6 +203,7 @@ pub(crate) fn check(
     paths: Vec<PathBuf>,
     itself: bool,
     within: Option<f64>,
+    rest: Option<Known>,
     crossing: bool,
     ignore_adjacent: bool,
     swept: bool,
@@ -221,6 +231,7 @@ pub(crate) fn check(
     let settings = Settings {
         itself,
         within,
+        rest: rest.map(Known::rest).transpose()?,
         crossing,
         ignore_adjacent,
         swept,
@@ -228,7 +239,7 @@ pub(crate) fn check(
         split: split.map(split_named).transpose()?,
         groups: (groups.into_iter().flatten().map(group)).collect::<Result<_>>()?,
         ignore: (ignore.into_iter().flatten().map(two)).collect::<Result<_>>()?,
-        baseline: baseline.map(Known::understood).transpose()?,
+        baseline: baseline.map(Known::baseline).transpose()?,
         skip_degenerate,
         crossing_edges,
         places,
@@ -436,9 +447,9 @@ fn split_named(name: &str) -> Result<Split> {
     }
 }
 
-fn from_zero(baseline: i64) -> Result<usize> {
-    usize::try_from(baseline)
-        .map_err(|_| refused!(BadOption: "baseline is {baseline}; frames are counted from 0"))
+fn from_zero(what: &str, frame: i64) -> Result<usize> {
+    usize::try_from(frame)
+        .map_err(|_| refused!(BadOption: "{what} is {frame}; frames are counted from 0"))
 }
 
 /// Frames of a range of Python.

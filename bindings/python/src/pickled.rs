@@ -1,10 +1,10 @@
 //! State of a world as pickle writes it, and a world restored from it.
 //!
-//! Written are bodies by number, with shape, motion, filter, environment, vertex groups and loose box, and the
-//! ignored pairs. Options are arguments of the constructor that pickle calls. Trees are not written
-//! but built anew on the present shapes, which changes no answer. Numbers of edges are written once
-//! somebody has asked for them, so they stay; older pickles lack them. A state that is read is
-//! checked, for it is restored by the calls that a caller would make.
+//! Written are bodies by number, with shape, motion, filter, environment, vertex groups, rest shape
+//! and loose box, and the ignored pairs. Options are arguments of the constructor that pickle
+//! calls. Trees are not written but built anew on the present shapes, which changes no answer.
+//! Numbers of edges are written once somebody has asked for them, so they stay; older pickles lack
+//! them. A state that is read is checked, for it is restored by the calls that a caller would make.
 
 use crate::answers::{Any, Owned, Rows};
 use crate::arrays::{CopiedCoordinates, CopiedMesh};
@@ -24,6 +24,7 @@ struct CopiedBody {
     positions: Owned,
     end: Option<Owned>,
     groups: Vec<u32>,
+    rest: Option<Owned>,
     edges: Option<Rows<u32, 2>>,
     filter: (u32, u32),
     environment: u32,
@@ -58,6 +59,8 @@ struct WrittenBody<'py> {
     end: Option<Any<'py>>,
     groups: Vec<u32>,
     #[pyo3(default)]
+    rest: Option<Any<'py>>,
+    #[pyo3(default)]
     edges: Option<Bound<'py, PyArray2<u32>>>,
     filter: (u32, u32),
     #[pyo3(default)]
@@ -85,6 +88,7 @@ impl Copied {
                     positions: Owned::from(world.positions(id)?),
                     end: world.end_positions(id)?.map(Owned::from),
                     groups,
+                    rest: world.rest_positions(id)?.map(|rest| Owned::from(rest.to_vec())),
                     edges: edges.map(|edges| Rows(edges.to_vec())),
                     filter: world.filter(id)?,
                     environment: world.environment(id)?,
@@ -142,6 +146,10 @@ impl Written<'_> {
             if let Some(end) = &written.end {
                 let end = CopiedCoordinates::of(end)?;
                 state.set_motion(body, end.get()?)?;
+            }
+            if let Some(rest) = &written.rest {
+                let rest = CopiedCoordinates::of(rest)?;
+                state.set_rest_positions(body, rest.get()?)?;
             }
             if !written.groups.is_empty() {
                 let groups = &written.groups;

@@ -226,6 +226,12 @@ impl State {
         taken.map_err(|not_taken| of_body(body, not_taken))
     }
 
+    /// Gives a body a rest shape.
+    pub(crate) fn set_rest_positions(&mut self, body: BodyId, rest: Positions<'_>) -> Result<()> {
+        let taken = self.world.set_rest_positions(body, rest, &mut self.widened);
+        taken.map_err(|not_taken| of_body(body, not_taken))
+    }
+
     /// Gives a body a shape that a caller wrote into an array.
     pub(crate) fn write_positions(&mut self, body: BodyId, written: Positions<'_>) -> Result<()> {
         // Of another length now, the array leaves rows unwritten, which are refused.

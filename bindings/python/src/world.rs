@@ -52,7 +52,7 @@ use std::borrow::Cow;
 /// - change of a mesh: set_mesh, edit, apply, live_triangles, live_vertices, mesh_revision,
 ///   components, split, fuse, weld
 /// - who may meet: set_filter, filter, set_environment, environment, ignore, unignore, ignored,
-///   set_vertex_groups, vertex_groups
+///   set_vertex_groups, vertex_groups, set_rest_positions, rest_positions
 /// - speed: options, rebuild, tree_quality, set_loose_box, loose_box, vertex_order, statistics,
 ///   memory_usage
 /// - the tree itself: tree_shape, tree_cut, tree_boxes, validate
@@ -545,6 +545,36 @@ impl World {
         let groups = arrays::numbers(groups, ["groups", "one for each vertex"]);
         let groups = groups.map_err(|refused| refused.of_body(Some(body.0)))?;
         ask!(self, py, world => world.set_vertex_groups(body.0, &groups)?)
+    }
+
+    /// Gives a body a rest shape, positions (n, 3), or takes it away with None.
+    ///
+    /// In a cloth all neighbours are close. With a rest shape, close pairs of one body are left out
+    /// that are at most the distance apart in it, too. Pairs of two bodies and other questions do
+    /// not look at it. It stays until the body is given another mesh. A vertex that is split from
+    /// another rests in that one's place; another new vertex rests where it was put.
+    ///
+    /// Raises pliant.Error: NoSuchBody, BadArray, Precision, WrongLength, BadPosition,
+    /// NeedsSubnormals. Cost: O(n).
+    fn set_rest_positions(
+        &self,
+        py: Python<'_>,
+        body: Body,
+        positions: Option<&Any<'_>>,
+    ) -> Result<()> {
+        match positions {
+            Some(positions) => self.with_shape(py, body, positions, State::set_rest_positions),
+            None => ask!(self, py, world => world.set_rest_positions(body.0, None)?),
+        }
+    }
+
+    /// Positions of a body in its rest shape, a new array (n, 3), or None if it has none.
+    ///
+    /// Raises pliant.Error: NoSuchBody.
+    fn rest_positions(&self, py: Python<'_>, body: Body) -> Result<Option<Owned>> {
+        ask!(self, py, world => {
+            world.rest_positions(body.0)?.map(|rest| Owned::from(rest.to_vec()))
+        })
     }
 
     /// Group of every vertex of a body, a new array (n,) uint32.

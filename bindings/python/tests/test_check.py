@@ -583,6 +583,23 @@ def test_what_comes_close(jumping: tuple[Path, Path]) -> None:
     assert [(frame.count, frame.only_touching) for frame in crossing] == [(0, 0)] * 2 + [(0, 1)] * 2
 
 
+def test_what_is_close_at_rest_is_left_out(tmp_path: Path) -> None:
+    """A strip of four triangles, flat and then folded."""
+    faces = np.array([[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4]])
+    flat = np.array([[x, y, 0] for x in (0.0, 1, 2) for y in (0.0, 1)])
+    folded = flat.copy()
+    folded[4:] = [[0, 0, 0.1], [0, 1, 0.1]]
+    strip = tmp_path / "strip.npz"
+    np.savez(strip, vertices=np.array([flat, folded]), faces=faces)
+    obj(tmp_path / "flat.obj", flat, faces)
+    for rest in (0, tmp_path / "flat.obj"):
+        assert [frame.count > 0 for frame in pliant.check(strip, within=0.2, rest=rest)] == [False, True]
+    with pytest.raises(pliant.Error, match="rest is -1; frames are counted from 0"):
+        pliant.check(strip, within=0.2, rest=-1)
+    with pytest.raises(pliant.Error, match="no distance was asked for; give within="):
+        pliant.check(strip, rest=0)
+
+
 def test_what_cannot_be_close_is_refused(jumping: tuple[Path, Path]) -> None:
     refused: list[tuple[tuple[Path, ...], dict[str, object], str]] = [
         (jumping, {"within": -1.0}, "a distance must be finite and at least 0; give within= in the unit of the files"),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from typing import Any
 
 import numpy as np
@@ -199,3 +201,36 @@ def test_edges_and_points_are_elements() -> None:
     with pytest.raises(pliant.Error) as refused:
         world.add(None, at)
     assert refused.value.kind == "NoTriangles"
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_what_is_close_at_rest_is_left_out(dtype: Any) -> None:
+    """A sheet folded in two: of it only what lies on each other is left."""
+    faces, flat = sheet(6)
+    flat = flat.astype(dtype)
+    half = flat[:, 0].max() / 2
+    folded = np.where(flat[:, :1] > half, flat * [-1, 1, 1] + [2 * half, 0, 0.1], flat).astype(dtype)
+    world = pliant.World()
+    cloth = world.add(faces, folded)
+    ask = [world.close_vertex_triangle_pairs, world.close_edge_edge_pairs, world.close_triangle_pairs]
+
+    def rows() -> list[set[tuple[int, ...]]]:
+        return [set(map(tuple, one(Selection.within(cloth), 0.3).all().pairs.tolist())) for one in ask]
+
+    every = rows()
+    world.set_positions(cloth, flat)
+    at_rest = rows()
+    world.set_positions(cloth, folded)
+    assert world.rest_positions(cloth) is None
+    world.set_rest_positions(cloth, flat)
+    kept = world.rest_positions(cloth)
+    assert kept is not None and kept.dtype == dtype and (kept == flat).all()
+    found = rows()
+    assert all(one and before and one == all_ - before for one, all_, before in zip(found, every, at_rest))
+    for again in (copy.deepcopy(world), pickle.loads(pickle.dumps(world))):
+        assert len(again.close_triangle_pairs(Selection.EVERYTHING, 0.3).all().pairs) == len(found[2])
+    with pytest.raises(pliant.Error) as refused:
+        world.set_rest_positions(cloth, flat[1:])
+    assert refused.value.kind == "WrongLength" and "rest positions" in str(refused.value)
+    world.set_rest_positions(cloth, None)
+    assert rows() == every

@@ -115,6 +115,26 @@ impl AnyWorld {
         Ok(())
     }
 
+    /// Calls [`World::set_rest_positions`] with positions. `widened` is scratch memory.
+    ///
+    /// # Errors
+    ///
+    /// The library refuses, or positions would be rounded.
+    pub fn set_rest_positions(
+        &mut self,
+        body: BodyId,
+        positions: Positions<'_>,
+        widened: &mut Vec<[f64; 3]>,
+    ) -> Result<(), NotTaken> {
+        match self {
+            Self::F32(world) => world.set_rest_positions(body, Some(single(positions)?))?,
+            Self::F64(world) => {
+                world.set_rest_positions(body, Some(double(positions, widened)))?;
+            }
+        }
+        Ok(())
+    }
+
     /// Calls [`World::set_motion`]. `widened` is scratch memory.
     ///
     /// # Errors

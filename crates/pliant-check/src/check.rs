@@ -16,9 +16,10 @@ use crate::one_point;
 use crate::opened::Opened;
 use crate::places::Places;
 use crate::remarks::{AtSeams, Parted, Remarks, has_degenerate};
+use crate::rest::RestShape;
 use crate::row::Row;
 use crate::sequence::{FIRST, MeshNumber, Sequence};
-use crate::settings::{self, Frames, Settings};
+use crate::settings::{self, Frames, Rest, Settings};
 use crate::touching::{BYTES_OF_TOUCHING, only_touch};
 use crate::with_world;
 use pliant::{ContactKind, ErrorKind, Query, Selection};
@@ -216,7 +217,13 @@ impl Check {
         let sources = &mut opened.sources.iter();
         sources.try_for_each(|source| one_point::check(source, 0))?;
         let bodies = Bodies::of(&opened, settings.split)?;
-        let sequence = Sequence::new(opened.sources, settings.options)?;
+        let rest = match &settings.rest {
+            Some(Rest::File(file)) => {
+                Some(RestShape::read(file, &opened.sources, settings.max_list)?)
+            }
+            Some(Rest::Frame(_)) | None => None,
+        };
+        let sequence = Sequence::new(opened.sources, rest, settings.options)?;
         let filter = Filter::new(
             &sequence.sources,
             &bodies,
@@ -228,6 +235,9 @@ impl Check {
             let no_such = Error::NoSuchFrame { what, frame, last };
             (frame <= last).then_some(()).ok_or(no_such)
         };
+        if let Some(Rest::Frame(frame)) = settings.rest {
+            there("the rest shape", frame)?;
+        }
         let baseline = match &settings.baseline {
             None => None,
             Some(settings::Baseline::Frame(frame)) => {
@@ -263,8 +273,9 @@ impl Check {
             Some(distance) if !(distance >= 0.0 && distance.is_finite()) => {
                 return Err(Error::Distance(distance));
             }
-            Some(_) if asked.itself => return Err(Error::WithinItself),
+            Some(_) if asked.itself && asked.rest.is_none() => return Err(Error::WithinItself),
             Some(_) if asked.crossing => return Err(Error::CrossingWithin),
+            None if asked.rest.is_some() => return Err(Error::RestAlone),
             _ => {}
         }
         if asked.swept {
@@ -522,6 +533,12 @@ impl Check {
             return Ok(None);
         }
         self.from = None;
+        if let Some(Rest::Frame(frame)) = self.asked.rest
+            && !self.sequence.knows_rest()
+        {
+            self.go_to(frame)?;
+            self.sequence.rest_in(frame)?;
+        }
         if let Some(KnownPairs {
             frame, known: None, ..
         }) = self.baseline

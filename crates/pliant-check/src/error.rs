@@ -44,12 +44,34 @@ pub enum Error {
          least 0"
     )]
     Distance(f64),
-    /// A distance was asked for with bodies checked against themselves.
+    /// A distance was asked for with bodies checked against themselves, without a rest shape.
     #[error(
-        "pairs within a distance are searched for between different bodies only: neighbouring \
-         triangles of one body are always that close"
+        "pairs within a distance are searched for between different bodies only, unless there is \
+         a rest shape: neighbouring triangles of one body are always that close"
     )]
     WithinItself,
+    /// A rest shape was given without a distance.
+    #[error("a rest shape says which triangles are always close, and no distance was asked for")]
+    RestAlone,
+    /// The file of a rest shape cannot be used.
+    #[error("the rest shape {}: {}", shown(file), shown_within(why, 1000))]
+    BadRest {
+        /// Path of the file.
+        file: PathBuf,
+        /// Reason.
+        why: String,
+    },
+    /// A source whose mesh changes has no rest shape any more.
+    #[error(
+        "{}: the mesh is another than in the rest shape, which says nothing about it",
+        place(source_name, *frame)
+    )]
+    RestChanged {
+        /// Name of the source.
+        source_name: String,
+        /// Number of the frame.
+        frame: usize,
+    },
     /// Crossing places and a distance were asked for together.
     #[error(
         "places that cross and pairs within a distance cannot be asked for in one check: triangles \

@@ -7,9 +7,10 @@
 
 use crate::any_world::{AnyWorld, NotTaken};
 use crate::error::Error;
+use crate::rest::RestShape;
 use crate::{one_point, with_world};
 use pliant::{BodyId, Options};
-use pliant_io::{Body as Source, Precision};
+use pliant_io::{Body as Source, Positions, Precision};
 use std::collections::HashMap;
 
 /// Number of a source's mesh, whatever seams are closed: [`Source::mesh_number`].
@@ -35,6 +36,8 @@ pub(crate) struct Sequence {
     pub(crate) meshes: Vec<MeshNumber>,
     /// Version of the world's triangles: incremented when a mesh or its seams change.
     pub(crate) given: usize,
+    /// Rest shapes of all sources, if they are known.
+    rest: Option<Vec<RestShape>>,
     /// Frame after the one that the sources are in.
     next: usize,
     /// Whether the sources that stand still were read.
@@ -47,7 +50,11 @@ pub(crate) struct Sequence {
 
 impl Sequence {
     /// Starts before the first frame. Refuses sources whose frame counts do not match.
-    pub(crate) fn new(mut sources: Vec<Source>, options: Options) -> Result<Self, Error> {
+    pub(crate) fn new(
+        mut sources: Vec<Source>,
+        rest: Option<RestShape>,
+        options: Options,
+    ) -> Result<Self, Error> {
         let Some(frame_count) = sources.iter().map(Source::frame_count).max() else {
             return Err(Error::NoSources);
         };
@@ -62,7 +69,10 @@ impl Sequence {
                 other_frames: other.frame_count(),
             });
         }
-        let precision = sources.iter().map(Source::precision).max();
+        let precision = sources.iter().map(Source::precision);
+        let precision = precision
+            .chain(rest.as_ref().map(|rest| rest.precision))
+            .max();
         sources.iter_mut().for_each(Source::let_mesh_change);
         Ok(Self {
             meshes: vec![FIRST; sources.len()],
@@ -72,6 +82,7 @@ impl Sequence {
             world: AnyWorld::new(precision.unwrap_or(Precision::F64), options),
             widened: Vec::new(),
             ids: Vec::new(),
+            rest: rest.map(|rest| vec![rest]),
             next: 0,
             has_still: false,
             shown: None,
@@ -93,7 +104,51 @@ impl Sequence {
             self.read_to(frame)?;
             self.give(frame)?;
         }
+        self.give_rest(frame)?;
         self.shown = Some(frame);
+        Ok(())
+    }
+
+    /// Whether rest shapes are known.
+    pub(crate) fn knows_rest(&self) -> bool {
+        self.rest.is_some()
+    }
+
+    /// Makes the shapes of the frame in which the world is the rest shapes.
+    pub(crate) fn rest_in(&mut self, frame: usize) -> Result<(), Error> {
+        self.rest = Some(self.sources.iter().map(RestShape::of).collect());
+        self.give_rest(frame)
+    }
+
+    /// Gives rest shapes to the bodies of the world that have none.
+    fn give_rest(&mut self, frame: usize) -> Result<(), Error> {
+        for (number, rest) in self.rest.iter().flatten().enumerate() {
+            let (source, id) = (&self.sources[number], self.ids[number]);
+            let has_one = with_world!(&self.world, world => {
+                matches!(world.rest_positions(id), Ok(Some(_)))
+            });
+            if has_one {
+                continue;
+            }
+            if rest.mesh != self.meshes[number] {
+                let source_name = source.name().to_owned();
+                return Err(Error::RestChanged { source_name, frame });
+            }
+            let narrow: Vec<[f32; 3]>;
+            let positions = match self.world.precision() {
+                Precision::F32 => {
+                    // Exact: a world is of single precision if every shape is.
+                    let all = rest.positions.iter();
+                    narrow = all.map(|it| it.map(|x| x as f32)).collect();
+                    Positions::F32(&narrow)
+                }
+                Precision::F64 => Positions::F64(&rest.positions),
+            };
+            let given = self
+                .world
+                .set_rest_positions(id, positions, &mut self.widened);
+            given.map_err(|why| not_taken(why, source, frame))?;
+        }
         Ok(())
     }
 

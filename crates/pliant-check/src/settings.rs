@@ -12,9 +12,12 @@ pub struct Settings {
     /// Finds pairs of different bodies at most this far apart, instead of intersecting pairs.
     ///
     /// In units of the positions. An intersecting pair is at distance 0. Neighbours in a body
-    /// always are close. So a distance cannot be asked of one body alone, nor with
-    /// [`itself`](Self::itself).
+    /// always are close. So of one body alone, and with [`itself`](Self::itself), a distance needs
+    /// a [rest shape](Self::rest).
     pub within: Option<f64>,
+    /// Rest shape of every source, for [`within`](Self::within): triangles of one source that are
+    /// at most that far apart in it are left out.
+    pub rest: Option<Rest>,
     /// Leaves out all pairs of places where surfaces only touch.
     ///
     /// Each surface then stays on one closed side of the other: along a cut, or where parts lie on
@@ -115,6 +118,15 @@ pub enum Split {
     Groups,
 }
 
+/// Rest shape of sources.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Rest {
+    /// Their shapes in this frame.
+    Frame(usize),
+    /// First frame of a file that has the mesh of the only source.
+    File(PathBuf),
+}
+
 /// Known pairs, which are left out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Baseline {
@@ -151,6 +163,7 @@ impl Default for Settings {
         Self {
             itself: false,
             within: None,
+            rest: None,
             swept: false,
             crossing: false,
             ignore_adjacent: false,

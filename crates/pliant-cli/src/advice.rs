@@ -104,8 +104,13 @@ fn checking(error: &CheckError) -> Option<&'static str> {
         CheckError::NoClip => Some("leave out `--clip`"),
         CheckError::WithinItself => Some(
             "name two bodies or more, or make bodies of the pieces of one with `--split`; \
-             leave out `--self`",
+             leave out `--self`, or say with `--rest` what is close at rest",
         ),
+        CheckError::RestAlone => Some("give a distance with `--within`"),
+        CheckError::BadRest { .. } => {
+            Some("name a frame, or a file with the mesh of the one body that is checked")
+        }
+        CheckError::RestChanged { .. } => Some("check the frames before it alone, with `--frames`"),
         CheckError::SweptOneFrame { .. } => {
             Some("name a sequence, choose more of it with `--frames`, or leave out `--swept`")
         }

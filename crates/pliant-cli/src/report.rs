@@ -365,7 +365,7 @@ pub(crate) fn asked() -> String {
 fn found(motion: &Motion, along: &str, within: Option<f64>) -> String {
     let all = motion.pairs().len();
     if let Some(within) = within {
-        let close = format!("triangles of two bodies that are at most {within} apart");
+        let close = format!("triangles that are at most {within} apart");
         return match (motion.first_contact(), motion.worst()) {
             (Some(first), Some((worst, most))) => {
                 let hit = grouped(motion.frames_with_hits() as u64);

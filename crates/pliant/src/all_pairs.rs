@@ -94,16 +94,30 @@ pub struct Moving<'m, S> {
     /// Groups of the vertices, shape (n,); vertices of one group do not meet, except in group 0.
     /// `None`: all meet.
     pub groups: Option<&'m [u32]>,
+    /// Positions in the rest shape, shape (n, 3), if the body has one: see
+    /// [`World::set_rest_positions`](crate::World::set_rest_positions).
+    pub rest: Option<&'m [[S; 3]]>,
 }
 
-impl<S> Moving<'_, S> {
+impl<'m, S> Moving<'m, S> {
+    /// A body at these positions that stands still, with neither groups nor a rest shape.
+    pub fn at(triangles: &'m [[u32; 3]], positions: &'m [[S; 3]]) -> Self {
+        Self {
+            triangles,
+            positions,
+            end: None,
+            groups: None,
+            rest: None,
+        }
+    }
+
     fn validate(&self) -> Result<(), Error>
     where
         S: Real,
     {
         corners(self.triangles, self.positions)?;
-        if let Some(end) = self.end {
-            corners(self.triangles, end)?;
+        for positions in [self.end, self.rest].into_iter().flatten() {
+            corners(self.triangles, positions)?;
         }
         Ok(())
     }
@@ -120,15 +134,6 @@ impl<S> Moving<'_, S> {
             }
         }
         bounds
-    }
-
-    /// Box of some vertices in the present shape.
-    pub(crate) fn box_now(&self, vertices: &[u32]) -> Bounds<f64>
-    where
-        S: Real,
-    {
-        let still = Self { end: None, ..*self };
-        still.box_of(vertices)
     }
 
     /// Vertices that triangles use, by number.

@@ -185,6 +185,10 @@ class World:
         """Shape at the end of a body's motion, a new array (n, 3) of the world's dtype or None."""
     def set_vertex_groups(self, body: SupportsIndex, groups: _Array) -> None:
         """Gives every vertex of a body a group, (n,) of integers from 0 to 2^32 - 1."""
+    def set_rest_positions(self, body: SupportsIndex, positions: _Array | None) -> None:
+        """Gives a body a rest shape, positions (n, 3), or takes it away with None."""
+    def rest_positions(self, body: SupportsIndex) -> NDArray[Any] | None:
+        """Positions of a body in its rest shape, a new array (n, 3), or None if it has none."""
     def vertex_groups(self, body: SupportsIndex) -> NDArray[np.uint32]:
         """Group of every vertex of a body, a new array (n,) uint32."""
     def edges(self, body: SupportsIndex) -> NDArray[np.uint32]:
@@ -405,6 +409,7 @@ def check(
     *paths: str | PathLike[str],
     itself: bool = False,
     within: float | None = None,
+    rest: int | str | PathLike[str] | None = None,
     crossing: bool = False,
     ignore_adjacent: bool = False,
     swept: bool = False,

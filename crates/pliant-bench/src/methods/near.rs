@@ -347,12 +347,7 @@ impl Elements {
 
 /// A body of one triangle, perhaps degenerate.
 fn alone<'b>(triangles: &'b [[u32; 3]], positions: &'b [[f64; 3]]) -> Moving<'b, f64> {
-    Moving {
-        triangles,
-        positions,
-        end: None,
-        groups: None,
-    }
+    Moving::at(triangles, positions)
 }
 
 /// A moving body of one triangle, perhaps degenerate.

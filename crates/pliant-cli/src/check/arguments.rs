@@ -6,7 +6,7 @@ use crate::report::PictureOptions;
 use crate::tree_options::threads;
 use crate::{rate, size};
 use clap::{Args, ValueEnum, ValueHint};
-use pliant_check::{Baseline, Group};
+use pliant_check::{Baseline, Group, Rest};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -28,8 +28,8 @@ pub(crate) struct Arguments {
     #[arg(long = "self")]
     pub(super) itself: bool,
     /// Report triangles of different bodies that are at most D apart, instead of those that
-    /// intersect. D is in the unit of the files; triangles that intersect are 0 apart. Not with
-    /// --self: in one body, neighbours always are that close
+    /// intersect. D is in the unit of the files; triangles that intersect are 0 apart. One body,
+    /// and --self, need --rest: in one body, neighbours always are that close
     #[arg(
         long,
         value_name = "D",
@@ -38,6 +38,17 @@ pub(crate) struct Arguments {
         conflicts_with = "png"
     )]
     pub(super) within: Option<f64>,
+    /// With --within, leave out triangles of one file that are at most D apart in a rest shape.
+    /// That is the shape in this frame, from 0, or in a file of the mesh
+    #[arg(
+        long,
+        value_name = "FRAME|FILE",
+        allow_negative_numbers = true,
+        value_parser = names::rest,
+        value_hint = ValueHint::FilePath,
+        requires = "within"
+    )]
+    pub(super) rest: Option<Rest>,
     /// Leave out places where surfaces only touch, as along a cut. There no triangles cross, and no
     /// surface passes through another, not even exactly at edges and vertices. Where it is not
     /// clear what a side is, a place stays. Not with --within
@@ -166,6 +177,7 @@ Examples:
   pliant check walk.npz --frames 100..200:10         every tenth of these
   pliant check walk.npz --hits hits.vtp              hits_00.vtp, ... (ParaView)
   pliant check shirt.ply skin.ply --within 0.002     nothing closer than 2 mm?
+  pliant check cloth.npz --within 0.002 --rest 0     nothing closer to itself?
   pliant check shirt.npz skin.npz --swept            nothing jumps through?
   pliant check walk.npz --swept --report walk.html   with the moments of contact
   pliant check walk.npz --quiet && echo clean
@@ -178,9 +190,9 @@ Exit code 0: nothing intersects, is at most D apart, or meets on the way. 1: som
 2: it could not be checked; standard error says why.
 Memory: at most 3.5 times two frames (positions and triangles) and 12 MB, however many frames \
 there are. 7.5 times two frames where the mesh changes from file to file, and 11 times with \
---swept. Beside it the pairs of one frame, where they are listed, left out or written, and their \
-places: up to 60 bytes a vertex that is hit. With --crossing 32 bytes a pair and 200 a triangle \
-near one. Of glTF bodies that move, the rest positions, joints, deltas and keys.
+--swept. Five frames of positions more with --rest. Beside it the pairs of one frame, where they \
+are listed, left out or written, and their places: up to 60 bytes a vertex that is hit. With \
+--crossing 32 bytes a pair and 200 a triangle near one. Of glTF bodies that move, the rest positions, joints, deltas and keys.
 Too much? Check fewer bodies at once, or use --count or --first. \
 --max-memory refuses larger frames before they are read.";
 

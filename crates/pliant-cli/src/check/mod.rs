@@ -115,6 +115,7 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
     let settings = Settings {
         itself: arguments.itself,
         within: arguments.within,
+        rest: arguments.rest.clone(),
         crossing: arguments.crossing,
         ignore_adjacent: arguments.ignore_adjacent,
         crossing_edges: !arguments.quiet && arguments.format == Format::Json,

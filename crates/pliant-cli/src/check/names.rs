@@ -1,6 +1,7 @@
 //! Names of bodies and groups on the command line: `NAME=BODY,BODY` and `A,B`.
 
-use pliant_check::{Baseline, Group};
+use pliant_check::{Baseline, Group, Rest};
+use pliant_io::shown;
 
 /// Advice where a name contains a separator: a comma or an equals sign would end it.
 const OTHERWISE: &str = "a body whose name has a comma or an equals sign is named by its number";
@@ -31,10 +32,27 @@ pub(super) fn two(text: &str) -> Result<Names, String> {
 
 /// Parses a baseline: a number is a frame, anything else a file.
 pub(super) fn baseline(text: &str) -> Result<Baseline, String> {
-    if text.parse::<f64>().is_ok() {
-        return crate::report::frame(text).map(Baseline::Frame);
-    }
-    Ok(Baseline::File(text.into()))
+    Ok(frame(text)?.map_or_else(|| Baseline::File(text.into()), Baseline::Frame))
+}
+
+/// Parses a rest shape: a number is a frame, anything else a file.
+pub(super) fn rest(text: &str) -> Result<Rest, String> {
+    Ok(frame(text)?.map_or_else(|| Rest::File(text.into()), Rest::Frame))
+}
+
+/// Pairs that a rest shape leaves out, in words.
+pub(super) fn at_rest(rest: &Rest) -> String {
+    let shape = match rest {
+        Rest::Frame(frame) => format!("frame {frame}"),
+        Rest::File(file) => shown(file),
+    };
+    format!("triangles of one file that are as close in {shape}")
+}
+
+/// Parses the number of a frame, which a file may take the place of.
+fn frame(text: &str) -> Result<Option<usize>, String> {
+    let is_number = text.parse::<f64>().is_ok();
+    is_number.then(|| crate::report::frame(text)).transpose()
 }
 
 /// Whether a name has the form of a piece: `FILE#1`, counted from 1.
@@ -47,8 +65,8 @@ pub(super) fn is_of_a_piece(name: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{baseline, group, is_of_a_piece, two};
-    use pliant_check::Baseline;
+    use super::{baseline, group, is_of_a_piece, rest, two};
+    use pliant_check::{Baseline, Rest};
 
     #[test]
     fn pieces_have_numbers_from_one() {
@@ -77,6 +95,8 @@ mod tests {
         for bad in ["-1", "1.5"] {
             assert!(baseline(bad).is_err(), "{bad}");
         }
+        assert_eq!(rest("0"), Ok(Rest::Frame(0)));
+        assert_eq!(rest("flat.ply"), Ok(Rest::File("flat.ply".into())));
     }
 
     #[test]

@@ -6,6 +6,7 @@
 use super::adjacent::AdjacentTally;
 use super::arguments::{Arguments, Split};
 use super::moments;
+use super::names::at_rest;
 use crate::advice;
 use crate::report::{Watcher, fact};
 use crate::table::{grouped, short};
@@ -201,6 +202,9 @@ impl Pictures {
                     "Pairs that intersect in {} are left out.",
                     shown(file)
                 )),
+            }
+            if let Some(rest) = &arguments.rest {
+                play.notes.push(format!("Left out are {}.", at_rest(rest)));
             }
             if arguments.crossing {
                 play.notes

@@ -111,7 +111,7 @@ fn people_read_it() {
         "   frame  file            pairs    distance  first pair",
         "       0  shirt_0.obj         2        0.25  triangle 0 of body 0, triangle 0 of body 1",
         "       1  shirt_1.obj         0           -",
-        "1 of 2 frames have triangles of two bodies at most 0.5 apart; least distance: 0.25 in \
+        "1 of 2 frames have triangles at most 0.5 apart; least distance: 0.25 in \
          frame 0; most pairs: 2 in frame 0",
     ] {
         assert!(said.lines().any(|it| it == line), "{line:?}: {said}");
@@ -155,6 +155,81 @@ fn neighbours_are_not_asked() {
     }
 }
 
+/// A strip of four triangles that lies flat, and one that is folded, with its ends close.
+fn strip(fold: bool) -> String {
+    let ends = if fold {
+        "v 0 0 0.1\nv 0 1 0.1\n"
+    } else {
+        "v 2 0 0\nv 2 1 0\n"
+    };
+    let start = "v 0 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\n";
+    format!("{start}{ends}f 1 2 3\nf 2 4 3\nf 3 4 5\nf 4 6 5\n")
+}
+
+#[test]
+fn what_is_close_at_rest_is_left_out() {
+    fn asked<'a>(more: &[&'a str]) -> Vec<&'a str> {
+        let strip = ["strip_*.obj", "--within", "0.2"];
+        [&strip[..], more].concat()
+    }
+    let folder = folder(&[
+        ("strip_0.obj", strip(false)),
+        ("strip_1.obj", strip(true)),
+        ("flat.obj", strip(false)),
+        ("skin.obj", flat(0.0)),
+        ("turn_0.obj", strip(false)),
+        ("turn_1.obj", flat(0.0)),
+    ]);
+    for rest in ["0", "flat.obj"] {
+        let said = json(folder.path(), &asked(&["--rest", rest]));
+        let frames = said["frames"].as_array().unwrap();
+        let counts: Vec<_> = frames.iter().map(|frame| frame["count"].as_u64()).collect();
+        assert_eq!(counts, [Some(0), Some(1)], "{rest}");
+        assert_eq!(frames[1]["pairs"], json!([[0, 0, 0, 3]]));
+        // Not quite half of the height at the fold's end, for triangles slope.
+        assert_eq!(frames[1]["distance"], 0.049_875_466_805_381_65);
+        let rest = if rest == "0" { json!(0) } else { json!(rest) };
+        assert_eq!(said["rest"], rest);
+    }
+    // In the folded shape the ends are close, so that is how they rest.
+    let said = check(folder.path(), &asked(&["--rest", "1"]));
+    assert_eq!(said.code, 0, "{}{}", said.out, said.err);
+    let message = "triangles at most 0.2 apart; left out: triangles of one file that are as close \
+                   in frame 1";
+    assert!(said.out.contains(message), "{}", said.out);
+    // Bodies with themselves and each other.
+    let both = [
+        "skin.obj",
+        "strip_*.obj",
+        "--self",
+        "--within",
+        "0.05",
+        "--rest",
+        "0",
+    ];
+    let said = json(folder.path(), &both);
+    assert_eq!(said["frames"][0]["count"], 4);
+
+    for (arguments, words) in [
+        (&["strip_*.obj", "--rest", "0"][..], "--within"),
+        (&asked(&["--rest", "2"]), "the rest shape is frame 2, but"),
+        (
+            &asked(&["--rest", "skin.obj"]),
+            "the rest shape skin.obj: it has 3 vertices",
+        ),
+        (
+            &asked(&["skin.obj", "--rest", "flat.obj"]),
+            "it is of one body, and 2 are checked",
+        ),
+        (
+            &["turn_*.obj", "--within", "1", "--rest", "0"],
+            "another than in the rest shape",
+        ),
+    ] {
+        check(folder.path(), arguments).assert_refused(&[words]);
+    }
+}
+
 #[test]
 fn a_report_says_what_is_close() {
     let folder = folder(&[
@@ -173,7 +248,7 @@ fn a_report_says_what_is_close() {
     assert_eq!(check(folder.path(), &arguments).code, 1);
     let page = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
     for said in [
-        "There are triangles of two bodies that are at most 0.5 apart in 2 of 2 frames, first in \
+        "There are triangles that are at most 0.5 apart in 2 of 2 frames, first in \
          frame 0. Most: 2 pairs, in frame 0.",
         "pairs at most 0.5 apart per frame",
         r#""within":0.5"#,

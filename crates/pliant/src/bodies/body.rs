@@ -124,6 +124,22 @@ impl<S: Coordinate> Body<S> {
         self.filter.groups(self.mesh.vertex_count())
     }
 
+    /// Sets a rest shape after checking it, or removes it.
+    pub(crate) fn set_rest(&mut self, rest: Option<&[[S; 3]]>) -> Result<(), ErrorKind> {
+        if let Some(rest) = rest {
+            let expected = self.mesh.vertex_count();
+            checks::length("rest positions", expected, rest.len())?;
+            checks::all(self.mesh.new_shape(rest).positions)?;
+        }
+        self.filter.set_rest(rest);
+        Ok(())
+    }
+
+    /// Rest shape in the caller's order, if there is one.
+    pub(crate) fn rest(&self) -> Option<&[[S; 3]]> {
+        self.filter.rest()
+    }
+
     /// Numbers the edges as another body with this mesh does.
     ///
     /// Returns false if these are not its edges, or if they have numbers already.
@@ -371,6 +387,7 @@ impl<S: Coordinate> Body<S> {
         executor: Executor,
     ) -> bool {
         let (order, threads) = (self.mesh.order(), (instructions, executor));
+        self.filter.know_rest(order);
         let (shape, motion) = (&mut self.shape, &mut self.motion);
         shape.bring_into_tree_order(threads, order)
             && reach.is_none_or(|reach| motion.bring_into_tree_order(shape, reach, threads, order))

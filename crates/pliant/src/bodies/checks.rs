@@ -11,6 +11,23 @@ pub(crate) fn validate<S: Real>(
     positions: &[[S; 3]],
 ) -> Result<(), ErrorKind> {
     mesh::validate(triangles, positions.len())?;
+    all(positions)
+}
+
+/// Refuses a list of another length than the body's.
+pub(crate) fn length(what: &'static str, expected: usize, found: usize) -> Result<(), ErrorKind> {
+    if found == expected {
+        return Ok(());
+    }
+    Err(ErrorKind::WrongLength {
+        what,
+        expected,
+        found,
+    })
+}
+
+/// Refuses positions of which one is out of range, or too small for this thread.
+pub(crate) fn all<S: Real>(positions: &[[S; 3]]) -> Result<(), ErrorKind> {
     if !positions.iter().all(|&position| is_in_range(position)) {
         return Err(out_of_range(positions));
     }

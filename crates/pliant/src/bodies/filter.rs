@@ -1,8 +1,11 @@
-//! Collision filters of a body: membership and mask, environment, a loose box, groups of vertices.
+//! Collision filters of a body: membership and mask, environment, a loose box, groups of vertices,
+//! a rest shape.
 
+use super::checks;
+use super::per_vertex::PerVertex;
 use crate::error::ErrorKind;
-use crate::geometry::Bounds;
-use crate::held::{self, Held, held};
+use crate::geometry::{Bounds, Points, Real};
+use crate::held::{self, Held};
 use crate::mesh::{Elements, Order, Outcome};
 use crate::queries::Groups;
 
@@ -13,25 +16,12 @@ pub(crate) struct Filter<S> {
     environment: u32,
     loose: Option<Bounds<S>>,
     /// Collision groups of vertices. None where all vertices meet.
-    groups: Option<Box<VertexGroups>>,
+    groups: Option<Box<PerVertex<u32, Groups>>>,
+    /// Rest shape, in which elements that are close do not count as close. None if all count.
+    rest: Option<Box<PerVertex<[S; 3], Points<S>>>>,
 }
 
-/// Groups of the caller's vertices, and of all elements in tree order once these are known.
-struct VertexGroups {
-    callers: Vec<u32>,
-    of_elements: Option<Groups>,
-}
-
-impl VertexGroups {
-    fn boxed(callers: &[u32]) -> Box<Self> {
-        Box::new(Self {
-            callers: callers.to_vec(),
-            of_elements: None,
-        })
-    }
-}
-
-impl<S: Copy> Filter<S> {
+impl<S: Real> Filter<S> {
     /// The filter that lets everything meet.
     pub(crate) const fn none() -> Self {
         Self {
@@ -40,13 +30,14 @@ impl<S: Copy> Filter<S> {
             environment: 0,
             loose: None,
             groups: None,
+            rest: None,
         }
     }
 
     pub(crate) fn copy(&self) -> Self {
-        let groups = self.groups.as_ref();
         Self {
-            groups: groups.map(|groups| VertexGroups::boxed(&groups.callers)),
+            groups: self.groups.as_ref().map(|groups| Box::new(groups.copy())),
+            rest: self.rest.as_ref().map(|rest| Box::new(rest.copy())),
             ..*self
         }
     }
@@ -88,15 +79,9 @@ impl<S: Copy> Filter<S> {
 
     /// Gives every vertex a group. Vertices of one group do not meet, unless it is 0.
     pub(crate) fn set_groups(&mut self, groups: &[u32], vertices: usize) -> Result<(), ErrorKind> {
-        if groups.len() != vertices {
-            return Err(ErrorKind::WrongLength {
-                what: "groups",
-                expected: vertices,
-                found: groups.len(),
-            });
-        }
+        checks::length("groups", vertices, groups.len())?;
         let is_any = groups.iter().any(|&group| group != 0);
-        self.groups = is_any.then(|| VertexGroups::boxed(groups));
+        self.groups = is_any.then(|| Box::new(PerVertex::new(groups)));
         Ok(())
     }
 
@@ -104,62 +89,74 @@ impl<S: Copy> Filter<S> {
     pub(crate) fn groups(&self, vertices: usize) -> Vec<u32> {
         match &self.groups {
             None => vec![0; vertices],
-            Some(groups) => groups.callers.clone(),
+            Some(groups) => groups.callers().to_vec(),
         }
     }
 
     /// Computes the groups of all elements, unless they are known or vertices have none.
     pub(crate) fn know_groups(&mut self, order: &Order, elements: &Elements) {
-        if let Some(groups) = &mut self.groups
-            && groups.of_elements.is_none()
-        {
-            groups.of_elements = Some(Groups::new(&groups.callers, order, elements));
+        if let Some(groups) = &mut self.groups {
+            groups.know(|callers| Groups::new(callers, order, elements));
         }
     }
 
     /// Groups of all elements, if they are known.
     pub(crate) fn known_groups(&self) -> Option<&Groups> {
-        self.groups.as_ref()?.of_elements.as_ref()
+        self.groups.as_ref()?.known()
     }
 
-    /// Forgets the groups: all vertices meet.
-    pub(crate) fn forget_groups(&mut self) {
-        self.groups = None;
+    /// Sets the rest shape, which was checked, or removes it.
+    pub(crate) fn set_rest(&mut self, rest: Option<&[[S; 3]]>) {
+        self.rest = rest.map(|rest| Box::new(PerVertex::new(rest)));
     }
 
-    /// Forgets the groups of elements, because the mesh gets another order.
-    pub(crate) fn forget_tree_order(&mut self) {
-        if let Some(groups) = &mut self.groups {
-            groups.of_elements = None;
+    /// Rest shape in the caller's order.
+    pub(crate) fn rest(&self) -> Option<&[[S; 3]]> {
+        self.rest.as_ref().map(|rest| rest.callers())
+    }
+
+    /// Brings the rest shape into tree order, unless it is in it. O(n).
+    pub(crate) fn know_rest(&mut self, order: &Order) {
+        if let Some(rest) = &mut self.rest {
+            let in_order = order.vertex_order().iter();
+            rest.know(|callers| Points::of(in_order.map(|&vertex| callers[vertex as usize])));
         }
     }
 
-    /// Updates the groups after an edit. A vertex that was split from another has its group, other
-    /// new ones have none.
+    /// Rest shape in tree order, if there is one and it is known.
+    pub(crate) fn known_rest(&self) -> Option<&Points<S>> {
+        self.rest.as_ref()?.known()
+    }
+
+    /// Forgets what vertices were given, because the mesh is another: all meet.
+    pub(crate) fn forget_vertices(&mut self) {
+        (self.groups, self.rest) = (None, None);
+    }
+
+    /// Forgets what is in tree order, because the mesh gets another order.
+    pub(crate) fn forget_tree_order(&mut self) {
+        if let Some(groups) = &mut self.groups {
+            groups.forget_tree_order();
+        }
+        if let Some(rest) = &mut self.rest {
+            rest.forget_tree_order();
+        }
+    }
+
+    /// Updates groups and rest shape after an edit. A vertex that was split from another has its
+    /// group and place; other new ones have no group, and rest where they were put.
     pub(crate) fn follow(&mut self, outcome: &Outcome<S>) {
-        self.forget_tree_order();
-        let Some(groups) = &mut self.groups else {
-            return;
-        };
-        // Groups before the edit: a vertex that was split may have gone since, and its number may
-        // be reused.
-        let group = |vertex: u32| {
-            let from = outcome.split_from.get(&vertex);
-            from.map_or(0, |&from| groups.callers[from as usize])
-        };
-        let new = outcome.new_vertices.iter();
-        let new: Vec<(u32, u32)> = new.map(|&(vertex, _)| (vertex, group(vertex))).collect();
-        groups.callers.resize(outcome.vertices, 0);
-        for (vertex, group) in new {
-            groups.callers[vertex as usize] = group;
+        if let Some(groups) = &mut self.groups {
+            groups.follow(outcome, |_| 0);
+        }
+        if let Some(rest) = &mut self.rest {
+            rest.follow(outcome, |position| position);
         }
     }
 }
 
-held!(VertexGroups: callers[], of_elements);
-
 impl<S> Held for Filter<S> {
     fn held(&self) -> usize {
-        held::boxes(&self.groups)
+        held::boxes(&self.groups) + held::boxes(&self.rest)
     }
 }

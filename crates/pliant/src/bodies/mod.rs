@@ -10,6 +10,7 @@
 //! | `parts` | trees, each over a run of triangles |
 //! | `rebuild` | fresh trees for bodies whose tree has decayed |
 //! | `filter` | filters: which bodies and vertices may meet |
+//! | `per_vertex` | values that the caller gives vertices, through edits and new orders |
 //! | `checks` | refusal of bad positions |
 //! | `build` | the tree that the options ask for |
 //! | `debug_view` | trees for drawing |
@@ -25,6 +26,7 @@ mod mesh;
 mod motion;
 mod part;
 mod parts;
+mod per_vertex;
 mod rebuild;
 mod shape;
 

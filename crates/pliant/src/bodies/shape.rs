@@ -7,7 +7,7 @@
 //! threads a small body is copied as well: shapes come one by one, and threads bring them into
 //! order side by side.
 
-use super::checks::{all_inside, none_is_lost, out_of_range};
+use super::checks::{all_inside, length, none_is_lost, out_of_range};
 use crate::error::ErrorKind;
 use crate::geometry::{Bounds, IN_A_ROW, Origin, Points, Real, Shape};
 use crate::held::held;
@@ -157,13 +157,7 @@ impl<S: Coordinate> BodyShape<S> {
         (instructions, executor): (Instructions, Executor),
     ) -> Result<Staged<S>, ErrorKind> {
         let positions = new.positions;
-        if positions.len() != self.len {
-            return Err(ErrorKind::WrongLength {
-                what: "positions",
-                expected: self.len,
-                found: positions.len(),
-            });
-        }
+        length("positions", self.len, positions.len())?;
         let Some(staged) = self.stage(instructions, executor, positions) else {
             // Which vertex it was is found only if there was one.
             return Err(out_of_range(positions));

@@ -1,12 +1,11 @@
 //! Bounding volume hierarchy over bodies: eight boxes a node, descended once for every body.
 //!
 //! The tree is complete, with eight bodies in a row to a leaf and eight leaves to a node, so it
-//! needs no links. Any order of the bodies makes it right; a good one makes it fast. All boxes are
-//! refitted before each pass, and the order is kept until a pass tests twice as many nodes as its
-//! first. Bodies are ordered by environment before place, and a descent passes by nodes without the
-//! environment of its body. Memory is O(n), whatever overlaps, and the first pairs are known at once. Differs from
-//! the paper, which sweeps and prunes: there all overlapping pairs are kept, and fast bodies are
-//! sorted past most others on every axis.
+//! needs no links. Any order of the bodies makes it right; a good one, by environment before place,
+//! makes it fast. All boxes are refitted before each pass, and the order is kept until a pass tests
+//! twice as many nodes as its first. Memory is O(n), whatever overlaps, and the first pairs are
+//! known at once. Differs from the paper, which sweeps and prunes: there all overlapping pairs are
+//! kept, and fast bodies are sorted past most others on every axis.
 
 use super::Boxes;
 use super::overlap::Overlap;

@@ -19,6 +19,8 @@ pub(crate) struct Request<'q> {
     pub(crate) question: Option<Question<'q>>,
     /// Margin round each element for candidates, largest distance for close pairs; else 0.
     pub(crate) within: f64,
+    /// Whether close pairs are left out that are as close in the rest shape of their one body.
+    pub(crate) heeds_rest: bool,
     /// Width that intervals of times may have, for impacts; other kinds ignore it.
     pub(crate) width: f64,
     /// Only kind of contact that is asked for, if not all are.
@@ -33,6 +35,7 @@ impl Request<'_> {
             most: usize::MAX,
             question: None,
             within: 0.0,
+            heeds_rest: true,
             width: WIDTH,
             only: None,
         }

@@ -41,6 +41,8 @@ pub(crate) struct Needs {
     /// Whether things are no hits that are further apart than twice `grows_by`, even where their
     /// boxes overlap.
     pub(crate) culls_by_capsules: bool,
+    /// Whether what is as close in the rest shape of its one body is no hit.
+    pub(crate) heeds_rest: bool,
 }
 
 impl Needs {
@@ -51,6 +53,7 @@ impl Needs {
         grows_by: None,
         reach: None,
         culls_by_capsules: true,
+        heeds_rest: false,
     };
 
     /// Whether the test gets triangles, not runs of them.
@@ -227,6 +230,9 @@ pub(crate) struct LeafTest<'q, S> {
     pub(crate) ids: CallerIds<'q>,
     /// Elements and their boxes, for kinds that test runs.
     pub(crate) elements: [Option<NearElements<'q>>; 2],
+    /// Positions in the rest shape, if both bodies are one that has a rest shape and the kind heeds
+    /// it.
+    pub(crate) rest: Option<&'q Points<S>>,
     /// Whether both bodies are one.
     pub(crate) is_one_body: bool,
     /// Whether both trees are one, so that equal numbers of runs are the same run.

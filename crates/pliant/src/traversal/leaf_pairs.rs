@@ -191,6 +191,9 @@ fn leaf_test<'q, S: Coordinate>(context: &Context<'q, S>) -> LeafTest<'q, S> {
         motions: [a.motion, b.motion],
         ids: context.pair.caller_ids(),
         elements: [a.elements, b.elements],
+        rest: a
+            .rest
+            .filter(|_| context.needs.heeds_rest && context.pair.is_one_body()),
         is_one_body: context.pair.is_one_body(),
         is_one_tree: context.pair.is_one_tree(),
     }

@@ -19,6 +19,8 @@ pub(crate) struct Read<'t, S> {
     pub(crate) motion: Option<&'t Points<S>>,
     /// Near elements, for kinds that are shown runs of triangles.
     pub(crate) elements: Option<NearElements<'t>>,
+    /// Positions in the rest shape, if the body has one.
+    pub(crate) rest: Option<&'t Points<S>>,
     /// Triangles that were removed from the mesh and are still in the tree, if there are any.
     pub(crate) removed: Option<Removed<'t>>,
 }

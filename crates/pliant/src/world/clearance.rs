@@ -40,7 +40,8 @@ impl<S: Scalar> World<S> {
     /// rounded down by at most 1e-6 of itself and 1e-323, and is 0 where something touches.
     ///
     /// If every vertex moves less than that, in whatever direction, none of these pairs touches, on
-    /// the way or at the end. Pairs that filters or vertex groups keep apart do not count.
+    /// the way or at the end. Pairs that filters or vertex groups keep apart do not count. Rest
+    /// shapes leave out none.
     ///
     /// Cost: both queries for close pairs within `cut_off`.
     ///
@@ -93,7 +94,7 @@ impl<S: Scalar> World<S> {
         };
 
         let close = self.close_vertex_triangle_pairs(of, cut_off);
-        let close = close.interrupt(question);
+        let close = close.heedless_of_rest().interrupt(question);
         let _ = close.visit_some(|close| {
             for close in close {
                 let pair = close.pair;
@@ -106,7 +107,7 @@ impl<S: Scalar> World<S> {
             ControlFlow::<()>::Continue(())
         })?;
         let close = self.close_edge_edge_pairs(of, cut_off);
-        let close = close.interrupt(question);
+        let close = close.heedless_of_rest().interrupt(question);
         let _ = close.visit_some(|close| {
             for close in close {
                 let pair = close.pair;

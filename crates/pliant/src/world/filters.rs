@@ -1,4 +1,5 @@
-//! Filters, environments, ignored pairs, vertex groups and loose boxes: who may meet whom.
+//! Filters, environments, ignored pairs, vertex groups, rest shapes and loose boxes: who may meet
+//! whom.
 
 use super::handle::World;
 use super::scalar::Scalar;
@@ -34,17 +35,16 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.filter())
     }
 
-    /// Puts a body into an environment, a number: bodies of different ones do not meet in queries of
-    /// the whole world.
+    /// Puts a body into an environment, a number: bodies of different ones do not meet in queries
+    /// of the whole world.
     ///
     /// Masks cannot change that. At first all bodies are in environment 0. So thousands of small
-    /// worlds fit into one, each in the same place, as learning needs them. More than 100 bodies cost
-    /// what they would cost if the environments were far apart; the rule [`BroadPhase`] chooses must
-    /// be `Auto` or `Tree` for that. A query that names its bodies does not look at environments.
+    /// worlds fit into one, each in the same place, as learning needs them. More than 100 bodies
+    /// then cost what they would cost if the environments were far apart, unless
+    /// [`broad_phase`](crate::Options::broad_phase) says another way than `Auto` or `Tree`. A query
+    /// that names its bodies does not look at environments.
     ///
     /// Cost: O(1). The next query orders all bodies anew, O(b log b) for b bodies.
-    ///
-    /// [`BroadPhase`]: crate::BroadPhase
     ///
     /// # Errors
     ///
@@ -133,6 +133,59 @@ impl<S: Scalar> World<S> {
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn vertex_groups(&self, body: BodyId) -> Result<Vec<u32>, Error> {
         Ok(self.state().body(body)?.groups())
+    }
+
+    /// Gives a body a rest shape, positions of shape (n, 3): what is close in it is not close to
+    /// itself. `None` takes it away.
+    ///
+    /// In a cloth all neighbours are closer than it is thick. With a rest shape, close pairs of one
+    /// body are left out that are at most the distance apart in it, too. That is decided exactly.
+    /// Pairs of two bodies, and other questions, do not look at it.
+    ///
+    /// It stays with the body until [`set_mesh`](Self::set_mesh) gives it another mesh. A vertex
+    /// that an [`Edit`](crate::Edit) splits from another rests in that one's place; another new
+    /// vertex rests where it was put. Rows of empty vertices are not looked at.
+    ///
+    /// ```
+    /// # use pliant::{Selection, World};
+    /// // A strip of four triangles, folded so that its ends are close.
+    /// let strip = [[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4]];
+    /// let flat = [0.0, 1.0, 2.0].map(|x| [[x, 0.0, 0.0], [x, 1.0, 0.0]]);
+    /// let mut folded = flat;
+    /// folded[2] = [[0.0, 0.0, 0.1], [0.0, 1.0, 0.1]];
+    /// let mut world = World::<f64>::new();
+    /// let cloth = world.add(&strip, flat.as_flattened())?;
+    /// world.set_rest_positions(cloth, Some(flat.as_flattened()))?;
+    /// let itself = Selection::Within(cloth);
+    /// assert!(world.close_vertex_triangle_pairs(itself, 0.2).all()?.is_empty());
+    /// world.set_positions(cloth, folded.as_flattened())?;
+    /// assert!(world.close_vertex_triangle_pairs(itself, 0.2).first()?.is_some());
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// Cost: O(n).
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), and the errors of
+    /// [`set_positions`](Self::set_positions) but loose boxes.
+    pub fn set_rest_positions(
+        &mut self,
+        body: BodyId,
+        positions: Option<&[[S; 3]]>,
+    ) -> Result<(), Error> {
+        let found = self.state_mut().common.bodies.get_mut(body)?;
+        found.set_rest(positions).map_err(about(body))
+    }
+
+    /// Positions of a body in its rest shape, as [`set_rest_positions`](Self::set_rest_positions)
+    /// sets them; `None` if it has none.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn rest_positions(&self, body: BodyId) -> Result<Option<&[[S; 3]]>, Error> {
+        Ok(self.state().body(body)?.rest())
     }
 
     /// Gives a body a loose box, lower and upper corner, that holds it in every pose to come;

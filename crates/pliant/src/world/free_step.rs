@@ -141,11 +141,13 @@ impl<S: Scalar> World<S> {
         {
             return Ok(Some(InContact::Triangles(pair)));
         }
-        let close = self.close_vertex_triangle_pairs(of, distance);
+        let close = self
+            .close_vertex_triangle_pairs(of, distance)
+            .heedless_of_rest();
         if let Some(pair) = least(close.interrupt(question), |close| Some(close.pair))? {
             return Ok(Some(InContact::VertexTriangle(pair)));
         }
-        let close = self.close_edge_edge_pairs(of, distance);
+        let close = self.close_edge_edge_pairs(of, distance).heedless_of_rest();
         let pair = least(close.interrupt(question), |close| Some(close.pair))?;
         Ok(pair.map(InContact::EdgeEdge))
     }

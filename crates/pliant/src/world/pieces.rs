@@ -57,8 +57,8 @@ impl<S: Scalar> World<S> {
     /// several the first. Returns the new bodies in the order of their first triangles. If all is
     /// one component there are none, and nothing has changed.
     ///
-    /// Pieces inherit filter, loose box, vertex groups, and whom the body [ignores](Self::ignore).
-    /// If it ignores itself, the pieces ignore each other and it. So
+    /// Pieces inherit filter, environment, loose box, vertex groups, rest shape, and whom the body
+    /// [ignores](Self::ignore). If it ignores itself, the pieces ignore each other and it. So
     /// [`Everything`](crate::Selection::Everything) finds what it found. A motion of the body ends,
     /// as by [`apply`](Self::apply). Vertices that no triangle uses stay with it.
     ///
@@ -90,7 +90,8 @@ impl<S: Scalar> World<S> {
     /// `b`.
     ///
     /// Returns the numbers that they have now. Body `a` keeps its numbers, its filter and whom it
-    /// [ignores](Self::ignore); vertices keep their groups. If both had a loose box, it then has
+    /// [ignores](Self::ignore); vertices keep their groups. If either has a rest shape, it has one,
+    /// in which the other rests as it is. If both had a loose box, it then has
     /// one around both; else it has none. Motions of either end, as by [`apply`](Self::apply).
     /// Nothing is welded: see [`weld`](Self::weld).
     ///
@@ -198,6 +199,7 @@ impl<S: Scalar> World<S> {
         let triangles = self.triangles(body)?.to_vec();
         let positions = self.positions(body)?;
         let groups = self.vertex_groups(body)?;
+        let rest = self.rest_positions(body)?.map(<[_]>::to_vec);
         let mut edit = self.edit(body)?;
         let mut number_of = vec![u32::MAX; positions.len()];
         for piece in pieces {
@@ -216,6 +218,10 @@ impl<S: Scalar> World<S> {
             piece.body = self.add(&corners, &of_piece.collect::<Vec<_>>())?;
             let of_piece = piece.vertices.iter().map(|&it| groups[it as usize]);
             self.set_vertex_groups(piece.body, &of_piece.collect::<Vec<_>>())?;
+            if let Some(rest) = &rest {
+                let of_piece = piece.vertices.iter().map(|&it| rest[it as usize]);
+                self.set_rest_positions(piece.body, Some(&of_piece.collect::<Vec<_>>()))?;
+            }
         }
         self.apply(&edit).map(drop)
     }
@@ -246,6 +252,14 @@ impl<S: Scalar> World<S> {
         let mut groups = self.vertex_groups(a)?;
         let of_b = self.vertex_groups(b)?;
         let loose = [self.loose_box(a)?, self.loose_box(b)?];
+        let rest = match [self.rest_positions(a)?, self.rest_positions(b)?] {
+            [None, None] => None,
+            [of_a, of_b] => {
+                let mut rest = of_a.map_or_else(|| self.positions(a), |it| Ok(it.to_vec()))?;
+                rest.extend(kept(of_b.unwrap_or(&positions), &are_vertices));
+                Some(rest)
+            }
+        };
         let have_groups = groups.iter().chain(&of_b).any(|&group| group != 0);
 
         self.set_loose_box(a, None)?;
@@ -259,6 +273,9 @@ impl<S: Scalar> World<S> {
         if have_groups {
             groups.extend(kept(&of_b, &are_vertices));
             self.set_vertex_groups(a, &groups)?;
+        }
+        if rest.is_some() {
+            self.set_rest_positions(a, rest.as_deref())?;
         }
         self.remove(b)?;
         Ok(fused)

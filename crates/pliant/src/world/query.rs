@@ -47,6 +47,12 @@ impl<'w, H: Copy> Query<'w, H> {
         self
     }
 
+    /// Has rest shapes leave nothing out.
+    pub(super) fn heedless_of_rest(mut self) -> Self {
+        self.request.heeds_rest = false;
+        self
+    }
+
     /// Refuses a list of more hits than this, instead of filling the memory.
     ///
     /// While hits are found, no more than these are held, and some thousands a thread.

@@ -21,6 +21,7 @@ struct Known<S> {
     positions: Vec<[S; 3]>,
     end: Option<Vec<[S; 3]>>,
     groups: Option<Vec<u32>>,
+    rest: Option<Vec<[S; 3]>>,
 }
 
 impl<S> Known<S> {
@@ -30,6 +31,7 @@ impl<S> Known<S> {
             positions: &self.positions,
             end: self.end.as_deref(),
             groups: self.groups.as_deref(),
+            rest: self.rest.as_deref(),
         }
     }
 }
@@ -302,6 +304,9 @@ fn check<S: Scalar>(
         if meet(a.id, a.id) {
             all.one(a, asked);
         }
+        if let Close(distance) = asked {
+            check_triangles(world, a, distance, when);
+        }
         for b in &known[at + 1..] {
             for [a, b] in [[a, b], [b, a]] {
                 let mut two = Lists::default();
@@ -329,6 +334,23 @@ fn check<S: Scalar>(
         all.sorted(),
         "{when}, {options:?}"
     );
+}
+
+/// Asks for the close triangles of a body with itself, and compares with the reference.
+fn check_triangles<S: Scalar>(world: &mut World<S>, body: &Known<S>, distance: f64, when: &str) {
+    let at = |positions: &[[S; 3]]| {
+        let pairs = reference::self_close_triangle_pairs(&body.triangles, positions, distance);
+        pairs.unwrap()
+    };
+    let mut expected = at(&body.positions);
+    if let Some(rest) = &body.rest {
+        let at_rest = at(rest);
+        expected.retain(|pair| at_rest.binary_search(pair).is_err());
+    }
+    let of = Selection::Within(body.id);
+    let found = world.close_triangle_pairs(of, distance).all().unwrap();
+    let found: Vec<_> = found.iter().map(|close| close.pair.triangles()).collect();
+    assert_eq!(found, expected, "{when}");
 }
 
 /// Meshes with adjacency of every kind.
@@ -410,7 +432,7 @@ fn lives<S: Scalar>(
         let mut apart: Vec<[BodyId; 2]> = Vec::new();
         for step in 0..14 {
             let some = random.below(known.len().max(1) as u32) as usize;
-            match random.below(12) {
+            match random.below(13) {
                 _ if known.is_empty() => {}
                 0..=3 => {
                     let body = &mut known[some];
@@ -471,6 +493,7 @@ fn lives<S: Scalar>(
                         (&triangles, vertices) != (&body.triangles, body.positions.len());
                     world.set_mesh(body.id, &triangles, &positions).unwrap();
                     let groups = body.groups.take().filter(|_| !is_other);
+                    let rest = body.rest.take().filter(|_| !is_other);
                     let id = body.id;
                     *body = Known {
                         id,
@@ -478,6 +501,7 @@ fn lives<S: Scalar>(
                         positions,
                         end: None,
                         groups,
+                        rest,
                     };
                 }
                 9 => {
@@ -487,6 +511,23 @@ fn lives<S: Scalar>(
                     ];
                     world.ignore(pair[0], pair[1]).unwrap();
                     apart.push([pair[0].min(pair[1]), pair[0].max(pair[1])]);
+                }
+                11 => {
+                    // Some vertices rest where they are, others elsewhere.
+                    let body = &mut known[some];
+                    let is_one = random.below(4) > 0;
+                    body.rest = is_one.then(|| {
+                        let mut rest = body.positions.clone();
+                        for at in &mut rest {
+                            if random.below(2) == 0 {
+                                *at = place(random);
+                            }
+                        }
+                        rest
+                    });
+                    let rest = body.rest.as_deref();
+                    world.set_rest_positions(body.id, rest).unwrap();
+                    assert_eq!(world.rest_positions(body.id), Ok(rest));
                 }
                 10 => {
                     world.rebuild(known[some].id).unwrap();
@@ -504,6 +545,9 @@ fn lives<S: Scalar>(
                     ));
                     assert!(world.set_motion(body.id, &end[1..]).is_err());
                     assert!(world.set_vertex_groups(body.id, &[1]).is_err() || end.len() == 1);
+                    for rest in [&end[..], &end[1..]] {
+                        assert!(world.set_rest_positions(body.id, Some(rest)).is_err());
+                    }
                     for t in [-0.1, 1.5, f64::NAN] {
                         assert!(matches!(
                             world.advance_motion(t).unwrap_err().kind,
@@ -526,13 +570,14 @@ fn lives<S: Scalar>(
                 let (triangles, vertices) = mesh(random);
                 let positions = shape(random, vertices);
                 let id = world.add(&triangles, &positions).unwrap();
-                let (end, groups) = (None, None);
+                let (end, groups, rest) = (None, None, None);
                 known.push(Known {
                     id,
                     triangles,
                     positions,
                     end,
                     groups,
+                    rest,
                 });
             }
             // Half of a multiple of the unit is a tie on the lattice. The extreme margins reach
@@ -634,6 +679,7 @@ fn everything_is_close_within_the_largest_distances() {
                     positions,
                     end: None,
                     groups: None,
+                    rest: None,
                 }
             })
             .collect();

@@ -29,12 +29,7 @@ fn sheets(random: &mut Lcg) -> (World<f64>, Vec<[u32; 3]>, Vec<(BodyId, Points)>
 fn touches(triangles: &[[u32; 3]], bodies: &[(BodyId, Points)]) -> bool {
     let moving: Vec<Moving<f64>> = bodies
         .iter()
-        .map(|(_, positions)| Moving {
-            triangles,
-            positions,
-            end: None,
-            groups: None,
-        })
+        .map(|(_, positions)| Moving::at(triangles, positions))
         .collect();
     let (a, b) = (&moving[0], &moving[1]);
     let lists = [
@@ -62,6 +57,13 @@ fn nothing_touches_below_it_and_something_can_above() {
         let cut_off = [0.3, 3.0][worlds % 2];
         let clearance = world.clearance(Selection::Everything, cut_off).unwrap();
         assert_eq!(clearance.len(), 2);
+
+        // What a body's rest shape says is close may touch as well.
+        let (body, points) = &bodies[0];
+        world.set_rest_positions(*body, Some(points)).unwrap();
+        let again = world.clearance(Selection::Everything, cut_off).unwrap();
+        assert_eq!(again, clearance);
+        world.set_rest_positions(*body, None).unwrap();
 
         // Against the definition: half of the least distance in the lists of close pairs.
         let every = Selection::Everything;

@@ -16,6 +16,7 @@ struct Known<S> {
     triangles: Vec<Option<[u32; 3]>>,
     positions: Vec<Option<[S; 3]>>,
     groups: Vec<u32>,
+    rest: Option<Vec<[S; 3]>>,
     end: Option<Vec<[S; 3]>>,
     /// The number of every edge, once it was asked for.
     edges: BTreeMap<[u32; 2], u32>,
@@ -30,6 +31,7 @@ struct Compact<S> {
     triangles: Vec<[u32; 3]>,
     positions: Vec<[S; 3]>,
     groups: Vec<u32>,
+    rest: Option<Vec<[S; 3]>>,
     end: Option<Vec<[S; 3]>>,
     known_triangles: Vec<u32>,
     known_vertices: Vec<u32>,
@@ -42,10 +44,19 @@ impl<S: Number> Known<S> {
             triangles: triangles.iter().copied().map(Some).collect(),
             positions: positions.iter().copied().map(Some).collect(),
             groups: vec![0; positions.len()],
+            rest: None,
             end: None,
             edges: BTreeMap::new(),
             placed: BTreeSet::new(),
             alone: BTreeSet::new(),
+        }
+    }
+
+    /// Gives the last vertex a group, and a place in the rest shape if there is one.
+    fn push_values(&mut self, group: u32, place: [S; 3]) {
+        self.groups.push(group);
+        if let Some(rest) = &mut self.rest {
+            rest.push(place);
         }
     }
 
@@ -67,6 +78,7 @@ impl<S: Number> Known<S> {
                 .iter()
                 .map(|&it| self.groups[it as usize])
                 .collect(),
+            rest: self.rest.as_deref().map(of_vertices),
             end: self.end.as_deref().map(of_vertices),
             known_triangles,
             known_vertices,
@@ -277,6 +289,7 @@ fn check<S: Number>(world: &mut World<S>, known: &mut [Known<S>], options: Optio
     for body in &compact {
         let id = fresh.add(&body.triangles, &body.positions).unwrap();
         fresh.set_vertex_groups(id, &body.groups).unwrap();
+        fresh.set_rest_positions(id, body.rest.as_deref()).unwrap();
         if let Some(end) = &body.end {
             fresh.set_motion(id, end).unwrap();
         }
@@ -298,6 +311,14 @@ fn check<S: Number>(world: &mut World<S>, known: &mut [Known<S>], options: Optio
             }
         }
         assert_eq!(world.vertex_groups(id).unwrap(), body.groups);
+        let rest = world.rest_positions(id).unwrap();
+        assert_eq!(rest.is_some(), body.rest.is_some());
+        let rows = rest.iter().flat_map(|rest| rest.iter());
+        for ((found, expected), position) in
+            rows.zip(body.rest.iter().flatten()).zip(&body.positions)
+        {
+            assert!(position.is_none() || found == expected);
+        }
         // Every edge that exists has a number, and an edge that stays has kept its number.
         let edges = (0..).zip(world.edges(id).unwrap());
         let numbers = edges.filter(|(_, ends)| **ends != [u32::MAX; 2]);
@@ -372,7 +393,7 @@ fn step<S: Number>(edit: &mut Edit<S>, known: &mut Known<S>, random: &mut Lcg) {
             let new = edit.add_vertex(position);
             assert_eq!(new as usize, known.positions.len());
             known.positions.push(Some(position));
-            known.groups.push(0);
+            known.push_values(0, position);
             edit.set_triangle(triangle, [a, b, new]);
             known.triangles[triangle as usize] = Some([a, b, new]);
             let corners = [[b, c, new], [c, a, new]];
@@ -389,7 +410,8 @@ fn step<S: Number>(edit: &mut Edit<S>, known: &mut Known<S>, random: &mut Lcg) {
             leaving.truncate(1 + random.below(3) as usize);
             let new = edit.split_vertex(vertex, &leaving);
             known.positions.push(known.positions[vertex as usize]);
-            known.groups.push(known.groups[vertex as usize]);
+            let place = known.rest.as_ref().map(|rest| rest[vertex as usize]);
+            known.push_values(known.groups[vertex as usize], place.unwrap_or_default());
             for triangle in leaving {
                 let corners = known.triangles[triangle as usize].as_mut().unwrap();
                 *corners = corners.map(|it| if it == vertex { new } else { it });
@@ -429,6 +451,9 @@ fn step<S: Number>(edit: &mut Edit<S>, known: &mut Known<S>, random: &mut Lcg) {
                 known.placed.insert(vertex);
                 known.positions[vertex as usize] = Some(position);
                 known.groups[vertex as usize] = 0;
+                if let Some(rest) = &mut known.rest {
+                    rest[vertex as usize] = position;
+                }
                 known.alone.insert(vertex);
                 if random.below(3) == 0 {
                     return;
@@ -442,7 +467,7 @@ fn step<S: Number>(edit: &mut Edit<S>, known: &mut Known<S>, random: &mut Lcg) {
             let positions = [position(random), position(random)];
             edit.add_vertices(&positions);
             known.positions.extend(positions.map(Some));
-            known.groups.extend([0; 2]);
+            positions.map(|position| known.push_values(0, position));
         }
     }
 }
@@ -521,6 +546,7 @@ fn other_mesh<S: Number>(world: &mut World<S>, known: &mut Known<S>, random: &mu
     let mut new = Known::new(id, &triangles, &positions);
     if !is_other {
         new.groups = std::mem::take(&mut old.groups);
+        new.rest = old.rest.take();
     }
     // Edges that stay keep their numbers where the mesh is edited.
     if is_edited {
@@ -579,6 +605,13 @@ fn life<S: Number>(options: Options, seed: u64, edits: usize) -> usize {
                     *group = random.below(8).saturating_sub(5);
                 }
                 world.set_vertex_groups(id, &body.groups).unwrap();
+            }
+            6 if random.below(3) == 0 => {
+                let body = &mut known[which];
+                let rows = body.rows(&mut random);
+                body.rest = (random.below(3) > 0).then_some(rows);
+                let rest = body.rest.as_deref();
+                world.set_rest_positions(id, rest).unwrap();
             }
             5 if random.below(3) == 0 => {
                 other_mesh(&mut world, &mut known[which], &mut random);

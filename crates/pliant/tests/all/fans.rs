@@ -89,10 +89,8 @@ fn check<S: Scalar>(of: fn(f32) -> S) {
     // The first shape stands still, the others move on to the next.
     let end = |step: usize| (step > 0).then(|| &shapes[(step + 1) % 3][..]);
     let known = (0..3).map(|step| Moving {
-        triangles: &triangles,
-        positions: &shapes[step],
         end: end(step),
-        groups: None,
+        ..Moving::at(&triangles, &shapes[step])
     });
     let known = known.map(|known| RADII.map(|radius| expected(&known, radius)));
     let known: Vec<_> = known.collect();
@@ -124,10 +122,8 @@ fn check<S: Scalar>(of: fn(f32) -> S) {
         let found = found(&mut world, Selection::Within(body), RADII[1]);
         let known = edited.get_or_insert_with(|| {
             let known = Moving {
-                triangles: world.triangles(body).unwrap(),
-                positions: &positions,
                 end: Some(&end),
-                groups: None,
+                ..Moving::at(world.triangles(body).unwrap(), &positions)
             };
             expected(&known, RADII[1])
         });

@@ -589,10 +589,8 @@ fn the_committed_candidates_are_those_of_the_reference() {
             for (ends, radius) in [(None, RADIUS), (Some(&ends), 0.0)] {
                 let bodies: Vec<_> = (0..shapes.len())
                     .map(|body| reference::Moving {
-                        triangles: scene.triangles(body),
-                        positions: &shapes[body],
                         end: ends.map(|ends| &ends[body][..]),
-                        groups: None,
+                        ..reference::Moving::at(scene.triangles(body), &shapes[body])
                     })
                     .collect();
                 let mut rows: [Vec<[u32; 4]>; 2] = Default::default();
@@ -637,12 +635,7 @@ fn the_committed_close_pairs_are_those_of_the_reference() {
         for &step in steps {
             let shapes = shapes(&scene, step);
             let bodies: Vec<_> = (0..shapes.len())
-                .map(|body| reference::Moving {
-                    triangles: scene.triangles(body),
-                    positions: &shapes[body],
-                    end: None,
-                    groups: None,
-                })
+                .map(|body| reference::Moving::at(scene.triangles(body), &shapes[body]))
                 .collect();
             let mut rows: [Vec<[u32; 4]>; 3] = Default::default();
             let mut add = |kind: usize, [a, b]: [u32; 2], pairs: Vec<[u32; 2]>| {

@@ -25,10 +25,8 @@ pub(crate) struct Known<S> {
 impl<S> Known<S> {
     fn moving(&self) -> Moving<'_, S> {
         Moving {
-            triangles: &self.triangles,
-            positions: &self.positions,
             end: self.end.as_deref(),
-            groups: None,
+            ..Moving::at(&self.triangles, &self.positions)
         }
     }
 }

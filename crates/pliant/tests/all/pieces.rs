@@ -44,6 +44,8 @@ fn split_and_fused_again_it_finds_what_it_found() {
     world.ignore(body, other).unwrap();
     world.set_filter(body, 0b110, 0b111).unwrap();
     world.set_environment(body, 7).unwrap();
+    let rest: Vec<[f32; 3]> = positions.iter().map(|&[x, y, z]| [z, x, y]).collect();
+    world.set_rest_positions(body, Some(&rest)).unwrap();
     let groups: Vec<u32> = (0..positions.len() as u32).map(|it| it % 5).collect();
     world.set_vertex_groups(body, &groups).unwrap();
     let everywhere = Some(([-9.0; 3], [9.0; 3]));
@@ -80,6 +82,9 @@ fn split_and_fused_again_it_finds_what_it_found() {
         assert!(at.eq(world.positions(piece.body).unwrap()));
         let of_piece = piece.vertices.iter().map(|&it| groups[it as usize]);
         assert!(of_piece.eq(world.vertex_groups(piece.body).unwrap()));
+        let of_piece = piece.vertices.iter().map(|&it| rest[it as usize]);
+        let found = world.rest_positions(piece.body).unwrap().unwrap();
+        assert!(of_piece.eq(found.iter().copied()));
         assert_eq!(world.filter(piece.body), Ok((0b110, 0b111)));
         assert_eq!(world.environment(piece.body), Ok(7));
         assert_eq!(world.loose_box(piece.body), Ok(everywhere));
@@ -104,9 +109,11 @@ fn split_and_fused_again_it_finds_what_it_found() {
         }
         let at = world.positions(body).unwrap();
         let all = world.vertex_groups(body).unwrap();
+        let rests = world.rest_positions(body).unwrap().unwrap();
         for (&new, &old) in fused.vertices.iter().zip(&piece.vertices) {
             assert_eq!(at[new as usize], positions[old as usize]);
             assert_eq!(all[new as usize], groups[old as usize]);
+            assert_eq!(rests[new as usize], rest[old as usize]);
         }
         world.validate().unwrap();
     }

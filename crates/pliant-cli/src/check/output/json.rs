@@ -25,7 +25,7 @@
 //! |---|---|
 //! | `bodies` | each body: [`Entry`], or with `split` [`PieceEntry`] |
 //! | `sources` | files, or bodies of glTF files, where bodies are pieces or groups: [`Entry`] |
-//! | `split`, `ignore`, `baseline`, `within` | what was asked, if it was |
+//! | `split`, `ignore`, `baseline`, `within`, `rest` | what was asked, if it was |
 //! | `crossing`, `swept`, `skip_degenerate`, `ignore_adjacent` | what was asked, if it was |
 //! | `groups` | numbers of bodies by name of the group, if it was asked |
 //! | `frames` | [`FrameEntry`] each; with `swept` an [`IntervalEntry`] between two |
@@ -38,7 +38,7 @@ use crate::check::arguments::{Arguments, Split};
 use crate::check::names::Names;
 use pliant_check::{
     Adjacent, Baseline, Check, CrossingEdges, FirstImpact, Found, Group, Impact, Interval, Kinds,
-    Life, Place,
+    Life, Place, Rest,
 };
 use pliant_io::Body as Source;
 use serde::Serialize;
@@ -55,6 +55,7 @@ pub(super) struct Json {
     skip_degenerate: bool,
     ignore_adjacent: bool,
     within: Option<f64>,
+    rest: Option<Rest>,
     crossing: bool,
     swept: bool,
     has_frames: bool,
@@ -162,8 +163,8 @@ struct FrameEntry<'a> {
     /// true` pairs left out.
     #[serde(skip_serializing_if = "is_zero")]
     degenerate: usize,
-    /// Absent with `--count`. With `--within` only triangles of different bodies; with `--first`
-    /// the nearest pair alone.
+    /// Absent with `--count`. With `--within` and without `--rest` only triangles of different
+    /// bodies; with `--first` the nearest pair alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pairs: Option<&'a [[u32; 4]]>,
     /// Number of pairs of triangles that share a vertex and meet beyond what they share. Absent
@@ -401,6 +402,7 @@ impl Json {
             skip_degenerate: arguments.skip_degenerate,
             ignore_adjacent: arguments.ignore_adjacent,
             within: arguments.within,
+            rest: arguments.rest.clone(),
             crossing: arguments.crossing,
             swept: arguments.swept,
             has_frames: false,
@@ -471,6 +473,13 @@ impl Form for Json {
         }
         if let Some(within) = self.within {
             write!(out, r#","within":{}"#, json!(within))?;
+        }
+        match &self.rest {
+            None => {}
+            Some(Rest::Frame(frame)) => write!(out, r#","rest":{frame}"#)?,
+            Some(Rest::File(file)) => {
+                write!(out, r#","rest":{}"#, json!(file.to_string_lossy()))?;
+            }
         }
         if self.crossing {
             write!(out, r#","crossing":true"#)?;

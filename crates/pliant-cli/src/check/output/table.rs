@@ -7,9 +7,9 @@ use super::tally::Tally;
 use crate::check::arguments::Arguments;
 use crate::check::figures::counted;
 use crate::check::moments::elements;
-use crate::check::names::Names;
+use crate::check::names::{Names, at_rest};
 use crate::table::{grouped, short};
-use pliant_check::{Baseline, BodyFacts, Check, Found, Interval};
+use pliant_check::{Baseline, BodyFacts, Check, Found, Interval, Rest};
 use pliant_io::shown;
 use std::io::{self, Write};
 
@@ -27,6 +27,7 @@ pub(super) struct Table {
     baseline: Option<Baseline>,
     skip_degenerate: bool,
     within: Option<f64>,
+    rest: Option<Rest>,
     crossing: bool,
     swept: bool,
     ignore_adjacent: bool,
@@ -45,6 +46,7 @@ impl Table {
             baseline: arguments.baseline.clone(),
             skip_degenerate: arguments.skip_degenerate,
             within: arguments.within,
+            rest: arguments.rest.clone(),
             crossing: arguments.crossing,
             swept: arguments.swept,
             ignore_adjacent: arguments.ignore_adjacent,
@@ -80,7 +82,8 @@ impl Table {
         let adjacent = self
             .ignore_adjacent
             .then(|| "triangles that share a vertex".to_owned());
-        let left_out = [known, degenerate, touching, adjacent]
+        let rest = self.rest.as_ref().map(at_rest);
+        let left_out = [known, rest, degenerate, touching, adjacent]
             .into_iter()
             .flatten();
         let left_out: Vec<_> = left_out.collect();

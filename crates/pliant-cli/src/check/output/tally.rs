@@ -116,8 +116,8 @@ impl Tally {
             format!("; least distance: {} in frame {frame}", short(distance))
         });
         format!(
-            "{intersecting} of {frames} frames have triangles of two bodies \
-             at most {within} apart{nearest}{worst}"
+            "{intersecting} of {frames} frames have triangles at most {within} apart\
+             {nearest}{worst}"
         )
     }
 }

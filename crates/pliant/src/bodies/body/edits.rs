@@ -82,7 +82,7 @@ impl<S: Coordinate> Body<S> {
             new.mesh.succeed(&self.mesh);
             new.shape.set_version(self.shape.version() + 1);
             std::mem::swap(&mut new.filter, &mut self.filter);
-            new.filter.forget_groups();
+            new.filter.forget_vertices();
             *self = new;
             return Ok(());
         }
@@ -95,7 +95,7 @@ impl<S: Coordinate> Body<S> {
             split_from: BTreeMap::new(),
             emptied: Vec::new(),
         };
-        self.filter.forget_groups();
+        self.filter.forget_vertices();
         self.mesh.fill();
         self.make(&outcome, options);
         self.set_positions(positions, (instructions, executor))

@@ -21,6 +21,7 @@ pub(super) struct Queried<'b, S> {
     motion: Option<&'b Points<S>>,
     elements: Option<&'b Elements>,
     groups: Option<&'b Groups>,
+    rest: Option<&'b Points<S>>,
     removed: Option<Removed<'b>>,
 }
 
@@ -47,6 +48,7 @@ impl<'b, S: Coordinate> Queried<'b, S> {
             motion: way.map(|(way, reach)| way.going(reach)),
             elements: mesh.known_elements().filter(|_| !needs.triangles()),
             groups: filter.known_groups(),
+            rest: filter.known_rest(),
             removed: mesh.removed(),
         }
     }
@@ -68,6 +70,7 @@ impl<'b, S: Coordinate> Queried<'b, S> {
                 groups: self.groups,
                 removed: self.removed,
             }),
+            rest: self.rest,
             removed: self.removed,
         }
     }

@@ -123,6 +123,7 @@ impl Margin {
             grows_by: Some(self.grown_by),
             reach: Some(Reach::End),
             culls_by_capsules: false,
+            heeds_rest: false,
         }
     }
 

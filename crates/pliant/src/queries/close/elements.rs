@@ -17,15 +17,21 @@ use pliant_exact::distance::are_within_distance;
 pub(crate) struct Close<K> {
     candidates: K,
     distance: f64,
+    heeds_rest: bool,
 }
 
 impl<K> Close<K> {
     /// Close pairs within a distance, finite and at least 0. `candidates` makes the kind of
-    /// candidates for a margin.
-    pub(crate) fn within(distance: f64, candidates: impl Fn(Margin) -> K) -> Self {
+    /// candidates for a margin. `heeds_rest` leaves out pairs that are as close in a rest shape.
+    pub(crate) fn within(
+        distance: f64,
+        heeds_rest: bool,
+        candidates: impl Fn(Margin) -> K,
+    ) -> Self {
         Self {
             candidates: candidates(Margin::new(half(distance))),
             distance,
+            heeds_rest,
         }
     }
 }
@@ -39,7 +45,7 @@ pub(crate) trait ElementCandidates:
     fn vertices(leaves: &LeafTest<Self::Scalar>, hit: [u32; 2])
     -> Option<[(usize, TreeVertex); 4]>;
 
-    /// Positions of the four corners of a candidate.
+    /// Positions of the four corners of a candidate in the present shapes.
     #[inline(always)]
     fn corners<'q>(
         leaves: &LeafTest<'q, Self::Scalar>,
@@ -100,6 +106,7 @@ where
     fn needs(&self) -> Needs {
         Needs {
             culls_by_capsules: true,
+            heeds_rest: self.heeds_rest,
             ..self.candidates.needs()
         }
     }
@@ -110,7 +117,15 @@ where
         self.candidates.test(leaves, batch, found);
         let exact = &mut found.statistics.exact_decisions;
         let new = found.hits.tail_mut(before);
-        let kept = dispatch!(leaves.instructions, i => self.keep(i, leaves, new, exact));
+        let positions = leaves.shapes.map(|shape| shape.positions);
+        let mut keep = |new: &mut [[u32; 2]], positions: [&Points<K::Scalar>; 2], close| {
+            let shape = (positions, close);
+            dispatch!(leaves.instructions, i => self.keep(i, leaves, shape, new, exact))
+        };
+        let mut kept = keep(new, positions, true);
+        if let Some(rest) = leaves.rest {
+            kept = keep(&mut new[..kept], [rest; 2], false);
+        }
         found.hits.truncate(before + kept);
         found.statistics.pairs = pairs_before + kept as u64;
     }
@@ -130,27 +145,30 @@ where
 }
 
 impl<K: ElementCandidates> Close<K> {
-    /// Moves the candidates that are close to the front, in order. Returns how many they are.
+    /// Moves the candidates that are close at some positions to the front, in order; or the ones
+    /// that are not. Returns how many they are.
     #[inline(always)]
     fn keep<I: Simd>(
         &self,
         i: I,
         leaves: &LeafTest<K::Scalar>,
+        (positions, keeps_close): ([&Points<K::Scalar>; 2], bool),
         candidates: &mut [[u32; 2]],
         exact: &mut u64,
     ) -> usize {
         let are_edges = <K::Hit as ElementPair>::ARE_EDGES;
+        let corners = |hit| Some(corners_at(K::vertices(leaves, hit)?, positions));
         let mut kept = 0;
         for start in (0..candidates.len()).step_by(8) {
             let count = (candidates.len() - start).min(8);
             let mut some = [candidates[start]; 8];
             some[..count].copy_from_slice(&candidates[start..start + count]);
-            let Some(first) = K::corners(leaves, some[0]) else {
+            let Some(first) = corners(some[0]) else {
                 return kept;
             };
             let mut pairs = [first; 8];
             for lane in 1..8 {
-                pairs[lane] = K::corners(leaves, some[lane]).unwrap_or(first);
+                pairs[lane] = corners(some[lane]).unwrap_or(first);
             }
             let [mut close, far] = decide_eight(i, are_edges, &pairs, self.distance);
             // Undecided pairs, of which there are hardly ever any.
@@ -166,7 +184,7 @@ impl<K: ElementCandidates> Close<K> {
             }
             for (lane, &candidate) in some[..count].iter().enumerate() {
                 candidates[kept] = candidate;
-                kept += (close >> lane & 1) as usize;
+                kept += usize::from((close >> lane & 1 != 0) == keeps_close);
             }
         }
         kept

@@ -243,6 +243,7 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
         Needs {
             box_set: OF_GROWN_SHAPES,
             grows_by: Some(self.margin.grown_by()),
+            heeds_rest: true,
             ..Needs::TRIANGLES
         }
     }
@@ -258,9 +259,18 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
                 let corners = [corners_of(leaves.shapes[0], a), corners_of(leaves.shapes[1], b)];
                 let measured = of_triangles(i, &corners[0], &corners[1]);
                 let exact = &mut found.statistics.exact_decisions;
-                if is_within(&measured, &corners, self.distance, exact) {
-                    found.hits.push([a, b]);
+                if !is_within(&measured, &corners, self.distance, exact) {
+                    continue;
                 }
+                if let Some(rest) = leaves.rest {
+                    let at_rest = Shape { positions: rest, ..*leaves.shapes[0] };
+                    let corners = [a, b].map(|triangle| corners_of(&at_rest, triangle));
+                    let measured = of_triangles(i, &corners[0], &corners[1]);
+                    if is_within(&measured, &corners, self.distance, exact) {
+                        continue;
+                    }
+                }
+                found.hits.push([a, b]);
             }
         });
         found.statistics.candidate_pairs += candidates.len() as u64;

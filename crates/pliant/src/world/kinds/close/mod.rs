@@ -32,8 +32,9 @@ impl<S: Scalar> World<S> {
     /// [`CloseVertexTriangle`] says how good distance, direction and closest points are. Which
     /// pairs are looked at is said at
     /// [`vertex_triangle_candidates`](Self::vertex_triangle_candidates): no corner of a triangle is
-    /// close to it, and vertex groups and filters count. A motion changes no answer, but while
-    /// there is one, more candidates are looked at.
+    /// close to it, and vertex groups and filters count. Of one body, pairs that are as close in
+    /// its [rest shape](Self::set_rest_positions) are left out. A motion changes no answer, but
+    /// while there is one, more candidates are looked at.
     ///
     /// ```
     /// # use pliant::{Selection, World};
@@ -92,12 +93,12 @@ ask!(
     close_vertex_triangle.all_measured,
     |request| {
         let candidates = VertexTriangleCandidates::<S>::within;
-        Close::within(request.distance()?, candidates)
+        Close::within(request.distance()?, request.heeds_rest, candidates)
     }
 );
 ask!(CloseEdgeEdge, close_edge_edge.all_measured, |request| {
     let candidates = EdgeEdgeCandidates::<S>::within;
-    Close::within(request.distance()?, candidates)
+    Close::within(request.distance()?, request.heeds_rest, candidates)
 });
 impl InBodies for VertexTriangle {
     fn bodies(&self) -> [BodyId; 2] {

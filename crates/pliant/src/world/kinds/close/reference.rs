@@ -2,7 +2,7 @@
 
 use crate::all_pairs::{Element, ElementPairs, Moving};
 use crate::error::Error;
-use crate::geometry::Real;
+use crate::geometry::{Bounds, Real};
 use crate::world::scalar::Scalar;
 use pliant_exact::distance::{Primitives, are_within_distance};
 
@@ -22,7 +22,10 @@ pub fn close_vertex_triangle_pairs<S: Scalar>(
     ElementPairs::VerticesAndTriangles.that(a, Some(b), close(distance))
 }
 
-/// Pairs (vertex, triangle) of one body at most `distance` apart, sorted. Cost: O(n m).
+/// Pairs (vertex, triangle) of one body at most `distance` apart, but not in the rest shape,
+/// sorted.
+///
+/// Cost: O(n m).
 ///
 /// # Errors
 ///
@@ -31,7 +34,7 @@ pub fn self_close_vertex_triangle_pairs<S: Scalar>(
     body: &Moving<S>,
     distance: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    ElementPairs::VerticesAndTriangles.that(body, None, close(distance))
+    ElementPairs::VerticesAndTriangles.that(body, None, close_in_one(distance))
 }
 
 /// Pairs (edge of a, edge of b) at most `distance` apart, sorted, as in
@@ -48,7 +51,8 @@ pub fn close_edge_edge_pairs<S: Scalar>(
     ElementPairs::EdgesAndEdges.that(a, Some(b), close(distance))
 }
 
-/// Pairs (smaller edge, larger edge) of one body at most `distance` apart, sorted. Cost: O(m^2).
+/// Pairs (smaller edge, larger edge) of one body at most `distance` apart, but not in the rest
+/// shape, sorted. Cost: O(m^2).
 ///
 /// # Errors
 ///
@@ -57,28 +61,48 @@ pub fn self_close_edge_edge_pairs<S: Scalar>(
     body: &Moving<S>,
     distance: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    ElementPairs::EdgesAndEdges.that(body, None, close(distance))
+    ElementPairs::EdgesAndEdges.that(body, None, close_in_one(distance))
 }
 
-/// Whether two elements are at most `distance` apart in the present shape.
+/// Whether two elements of two bodies are at most `distance` apart in the present shapes.
 fn close<S: Real>(distance: f64) -> impl Fn(Element<S>, Element<S>) -> bool {
-    move |(a, of_a), (b, of_b)| {
-        // Whatever is further apart on one axis is further apart.
-        if !a.box_now(of_a).are_within(&b.box_now(of_b), distance) {
-            return false;
-        }
-        let corner =
-            |body: &Moving<S>, vertex: u32| body.positions[vertex as usize].map(Real::to_f64);
-        let elements = match (of_a, of_b) {
-            (&[vertex], &[i, j, k]) => {
-                let [i, j, k] = [i, j, k].map(|vertex| corner(b, vertex));
-                Primitives::VertexTriangle([corner(a, vertex), i, j, k])
-            }
-            (&[i, j], &[k, l]) => {
-                Primitives::EdgeEdge([corner(a, i), corner(a, j), corner(b, k), corner(b, l)])
-            }
-            _ => return false,
-        };
-        are_within_distance(&elements, distance)
+    move |(a, of_a), (b, of_b)| are_close([a.positions, b.positions], of_a, of_b, distance)
+}
+
+/// Whether two elements of one body are at most `distance` apart in the present shape, and not in
+/// the rest shape.
+fn close_in_one<S: Real>(distance: f64) -> impl Fn(Element<S>, Element<S>) -> bool {
+    move |(body, a), (_, b)| {
+        let at = |shape| are_close([shape; 2], a, b, distance);
+        at(body.positions) && !body.rest.is_some_and(at)
     }
+}
+
+/// Whether two elements, by their vertices, are at most `distance` apart at these positions.
+fn are_close<S: Real>([of_a, of_b]: [&[[S; 3]]; 2], a: &[u32], b: &[u32], distance: f64) -> bool {
+    let corner = |at: &[[S; 3]], vertex: u32| at[vertex as usize].map(Real::to_f64);
+    let [box_a, box_b] = [(of_a, a), (of_b, b)].map(|(at, vertices)| {
+        let mut bounds = Bounds::EMPTY;
+        vertices
+            .iter()
+            .for_each(|&it| bounds.include(corner(at, it)));
+        bounds
+    });
+    // Whatever is further apart on one axis is further apart.
+    if !box_a.are_within(&box_b, distance) {
+        return false;
+    }
+    let elements = match (a, b) {
+        (&[vertex], &[i, j, k]) => {
+            let [i, j, k] = [i, j, k].map(|vertex| corner(of_b, vertex));
+            Primitives::VertexTriangle([corner(of_a, vertex), i, j, k])
+        }
+        (&[i, j], &[k, l]) => {
+            let [i, j] = [i, j].map(|vertex| corner(of_a, vertex));
+            let [k, l] = [k, l].map(|vertex| corner(of_b, vertex));
+            Primitives::EdgeEdge([i, j, k, l])
+        }
+        _ => return false,
+    };
+    are_within_distance(&elements, distance)
 }

@@ -24,8 +24,9 @@ impl<S: Scalar> World<S> {
     /// Triangles that intersect are at distance 0. The distance is in the unit of the positions.
     /// Whether a pair is that close is decided exactly, in real arithmetic on the numbers given. As
     /// with [`intersections`](Self::intersections), triangles of one body that share a vertex of
-    /// the mesh are left out. Their next neighbours are always close: this question is for bodies
-    /// that should keep a distance from each other.
+    /// the mesh are left out. Their next neighbours are always close. So this question is for
+    /// bodies that should keep a distance from each other. Of a body with a
+    /// [rest shape](Self::set_rest_positions), pairs that are as close in it are left out.
     ///
     /// ```
     /// # use pliant::{Selection, World};

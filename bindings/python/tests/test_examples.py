@@ -237,3 +237,40 @@ def test_cloth_with_a_barrier_never_intersects(monkeypatch: pytest.MonkeyPatch, 
     # It has come near the ball, and stays away from it.
     near = [float(line.split(" iterations, ")[1].split()[0]) for line in said]
     assert near[0] > 0.08 and 0 < near[-1] < 0.05
+
+
+def test_knot_in_a_cable_holds(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """Pulled until nothing goes any further, it is still there: without it the ends would be as far apart as the cable is long."""
+    import cable as example
+
+    said = run("cable.py", 41, monkeypatch=monkeypatch, capsys=capsys).splitlines()
+    assert len(said) == 3 and said[0].startswith("step 0: 0.999 from itself, ends 74.1 apart")
+    monkeypatch.setattr(example, "PULL", 1.0)
+    cable = example.Cable()
+    for step in range(100):
+        free = cable.step()
+        assert cable.nearest() > example.GAP, step
+        if free < 1e-3:
+            break
+    assert free < 1e-3 and step > 50
+    length = np.linalg.norm(np.diff(cable.x, axis=0), axis=1).sum()
+    assert np.linalg.norm(cable.x[-1] - cable.x[0]) < length - 10 < 1.2 * example.EDGES
+
+
+def test_net_hangs_over_a_ball(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    from net_on_ball import GAP, RADIUS, THICK, Simulation
+
+    simulation = Simulation()
+    for step in range(35):
+        near = simulation.step()
+        nearest = simulation.world.distance(simulation.net, simulation.ball)
+        assert nearest and nearest.distance > GAP, step
+        assert simulation.world.intersections(pliant.Selection.EVERYTHING).first() is None, step
+    # Faces of the ball are up to one per cent inside of it.
+    assert np.linalg.norm(simulation.x, axis=1).min() > 0.98 * RADIUS + 0.9 * THICK
+    assert simulation.x[:, 2].min() < -0.5 and nearest and nearest.distance > 0.8 * THICK
+    # The net meets the ball in all kinds of contacts, and itself where it folds.
+    assert set(near.kind.tolist()) == set(pliant.FeatureKind)
+    assert (near.bodies == simulation.net).all(axis=1).any() and (near.bodies[:, 1] == simulation.ball).any()
+    said = run("net_on_ball.py", 11, monkeypatch=monkeypatch, capsys=capsys).splitlines()
+    assert len(said) == 2 and said[0] == "step 0: 0.1030 from the ball, 0 contacts, lowest at 0.60"

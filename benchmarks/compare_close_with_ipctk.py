@@ -229,7 +229,7 @@ def compare_contacts(bodies, ours, found, theirs, shape, limit):
     """Number of our contacts, of differences that are explained, and of others."""
     names = Features(bodies)
     its, own = names.theirs(theirs.features()), set(ours.contacts(bodies, limit))
-    different = own ^ its
+    different, every = own ^ its, own | its
     left = set(different)
     for pairs in ours.pairs(bodies, found):
         for whole, _, distance in names.ours(pairs):
@@ -238,11 +238,11 @@ def compare_contacts(bodies, ours, found, theirs, shape, limit):
                 continue
             near = {
                 part
-                for part in some & (own | its)
+                for part in some & every
                 if abs(apart(shape, part) - distance) <= TIE * limit
             }
             if near & own and near & its or abs(distance - limit) <= TIE * limit:
-                left -= some
+                left -= near
     return len(own), len(different) - len(left), len(left)
 
 

@@ -98,7 +98,9 @@ class Cloth:
         for of in (Selection.between(self.cloth, self.ball), Selection.within(self.cloth)):
             found, corners = self.contacts(of, x)
             square, first, second = derivatives.squared_distance(found.kind, corners)
-            energy, slope, bend = (BARRIER * STEP**2 * it for it in barrier(square))
+            # Weighted by the close pairs that a contact stands for, the sum is continuous.
+            weight = BARRIER * STEP**2 * found.multiplicity
+            energy, slope, bend = (weight * it for it in barrier(square))
             value += energy.sum()
             if not full:
                 continue

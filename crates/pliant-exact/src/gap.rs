@@ -5,21 +5,7 @@
 //! which side the difference is. Only if it is that number is it not known. Then the error of the
 //! subtraction, which is a floating-point number, decides.
 
-use super::Point;
-
-/// Whether real lo - hi is at most `distance`, which may be infinite.
-#[inline]
-fn is_within(lo: f64, hi: f64, distance: f64) -> bool {
-    let difference = lo - hi;
-    if difference != distance {
-        return difference < distance;
-    }
-    // The error of a subtraction (Knuth 1969): exact, as nothing overflows. Coordinates are at most
-    // `f32::MAX`.
-    let of_lo = difference + hi;
-    let error = (lo - of_lo) - (hi - (of_lo - difference));
-    error <= 0.0
-}
+use super::{Length, Point};
 
 /// Whether two boxes, each by its lower and its upper corner, are at most `distance` apart on every
 /// axis.
@@ -34,10 +20,12 @@ fn is_within(lo: f64, hi: f64, distance: f64) -> bool {
 /// assert!(!are_boxes_within(&a, &b, 0.1) && are_boxes_within(&a, &b, 0.100_000_000_000_000_1));
 /// ```
 #[inline]
-pub fn are_boxes_within(a: &[Point; 2], b: &[Point; 2], distance: f64) -> bool {
+pub fn are_boxes_within(a: &[Point; 2], b: &[Point; 2], distance: impl Into<Length>) -> bool {
     let [[lo_a, hi_a], [lo_b, hi_b]] = [a, b];
+    let distance = distance.into();
     (0..3).all(|axis| {
-        is_within(lo_a[axis], hi_b[axis], distance) && is_within(lo_b[axis], hi_a[axis], distance)
+        distance.holds_difference(lo_a[axis], hi_b[axis])
+            && distance.holds_difference(lo_b[axis], hi_a[axis])
     })
 }
 
@@ -67,7 +55,7 @@ mod tests {
                     let expected =
                         distance == f64::INFINITY || sign_of_sum(&[lo, -hi, -distance]) <= 0;
                     assert_eq!(
-                        is_within(lo, hi, distance),
+                        Length::from(distance).holds_difference(lo, hi),
                         expected,
                         "{lo} {hi} {distance}"
                     );

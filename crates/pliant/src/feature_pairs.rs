@@ -60,10 +60,11 @@ impl FeaturePair {
 
 /// Contacts of close elements, each once: a vertex and a vertex, an edge or a face, or two edges.
 ///
-/// A barrier or a penalty that sums close pairs counts a contact as often as triangles and edges
-/// have it. These are summed once. Rows are sorted: vertices with vertices, then vertices with
-/// edges, edges with edges, vertices with faces, each by bodies and numbers. Multiplicities sum to
-/// the lengths of the two lists.
+/// Close pairs have a contact as often as triangles and edges have it. A barrier that is summed
+/// over contacts, each weighted by its multiplicity, is the sum over all close pairs, in fewer
+/// terms. With weight 1 it would jump where the closest features change. Rows are sorted: vertices
+/// with vertices, then vertices with edges, edges with edges, vertices with faces, each by bodies
+/// and numbers. Multiplicities sum to the lengths of the two lists.
 ///
 /// Which features are closest is exact, in real arithmetic on the numbers given. Parallel edges
 /// have several; the contact is the first of them in order. Distance, direction and weights have

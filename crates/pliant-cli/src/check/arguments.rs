@@ -192,7 +192,8 @@ Memory: at most 3.5 times two frames (positions and triangles) and 12 MB, howeve
 there are. 7.5 times two frames where the mesh changes from file to file, and 11 times with \
 --swept. Five frames of positions more with --rest. Beside it the pairs of one frame, where they \
 are listed, left out or written, and their places: up to 60 bytes a vertex that is hit. With \
---crossing 32 bytes a pair and 200 a triangle near one. Of glTF bodies that move, the rest positions, joints, deltas and keys.
+--crossing 32 bytes a pair and 200 a triangle near one. Of glTF bodies that move, \
+the rest positions, joints, deltas and keys.
 Too much? Check fewer bodies at once, or use --count or --first. \
 --max-memory refuses larger frames before they are read.";
 

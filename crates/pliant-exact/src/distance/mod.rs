@@ -11,10 +11,10 @@ mod triangles;
 
 use super::Feature::{self, Corner, Edge, Inside};
 use super::float::{power, scaled};
-use super::integer::{Integer, in_proportion, parts, powers_of_all, quotient};
+use super::integer::{Integer, in_proportion, powers_of_all, quotient};
 use super::ring::Ring;
 use super::vector::{Vector, cross, dot, in_units, minus};
-use super::{Point, denormals_are_kept};
+use super::{Length, Point, denormals_are_kept};
 pub use features::closest_features;
 pub use triangles::point_in_common;
 pub use triangles::{SomePoints, TrianglesClosest, are_triangles_within, closest_triangles};
@@ -58,14 +58,20 @@ const FARTHEST: f64 = 2.0 * 2.0 * (f32::MAX as f64);
 /// The distance is at least 0, in the unit of the coordinates, which are at most `f32::MAX` in
 /// magnitude. Cost: some microseconds.
 #[cold]
-pub fn are_within_distance(elements: &Primitives, distance: f64) -> bool {
-    if distance >= FARTHEST {
+pub fn are_within_distance(elements: &Primitives, distance: impl Into<Length>) -> bool {
+    are_within_length(elements, distance.into())
+}
+
+fn are_within_length(elements: &Primitives, distance: Length) -> bool {
+    let [low, _] = distance.bounds();
+    if low >= FARTHEST {
         return true;
     }
+    let distance = distance.exactly();
     let [unit, _] = powers_of_all(elements.corners().as_flattened());
     let mut is_within = false;
     feet(elements, unit, &mut |feet| {
-        is_within = is_within || is_at_most(&feet, distance, unit);
+        is_within = is_within || is_at_most(&feet, &distance, unit);
     });
     is_within
 }
@@ -87,15 +93,12 @@ pub fn are_points_within(p: &Point, q: &Point, distance: f64) -> bool {
     are_within_distance(&Primitives::EdgeEdge([*p, *p, *q, *q]), distance)
 }
 
-/// Whether the distance of a pair of features is at most this.
-fn is_at_most(feet: &Feet, distance: f64, unit: i32) -> bool {
-    if feet.over.is_zero() || distance == 0.0 {
+/// Whether the distance of a pair of features is at most this integer times a power of two.
+fn is_at_most(feet: &Feet, (integer, exponent): &(Integer, i32), unit: i32) -> bool {
+    if feet.over.is_zero() || integer.is_zero() {
         return feet.over.is_zero();
     }
-    // The integer and the power of two that it is, in units.
-    let (_, integer, exponent) = parts(distance);
     let exponent = exponent - unit;
-    let integer = Integer::from(integer);
     let (m, e) = integer.approximately();
     // Both are off by less than 2^-49 of themselves.
     let (n, f) = quotient(&feet.over, &feet.under);
@@ -107,7 +110,7 @@ fn is_at_most(feet: &Feet, distance: f64, unit: i32) -> bool {
     let shift = 2 * exponent.unsigned_abs() as usize;
     let [of_over, of_square] = if exponent < 0 { [shift, 0] } else { [0, shift] };
     let over = feet.over.shifted(of_over);
-    let square = integer.times(&integer).times(&feet.under);
+    let square = integer.times(integer).times(&feet.under);
     over.is_at_most(&square.shifted(of_square))
 }
 
@@ -368,6 +371,14 @@ mod tests {
                         expected != Ordering::Greater,
                         "{elements:?} {x}"
                     );
+                    // As a sum of three, and as one that is a little more.
+                    let is_within = |numbers| are_within_distance(&elements, Length::sum(numbers));
+                    let parts = [x / 2.0, x / 4.0, x - x / 2.0 - x / 4.0];
+                    assert_eq!(is_within(parts), expected != Ordering::Greater, "{parts:?}");
+                    let more = is_within([x, x * 2f64.powi(-200), 0.0]);
+                    let below = expected != Ordering::Greater;
+                    let above = compare_distance(&a, &b, x.next_up()) == Ordering::Greater;
+                    assert!((more || !below) && !(more && above), "{elements:?} {x}");
                 }
                 // Below the normal range by no more than the smallest number besides.
                 let slack = 2f64.powi(-48);

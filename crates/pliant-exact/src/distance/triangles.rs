@@ -13,7 +13,7 @@ use super::super::ring::Ring;
 use super::super::triangles::edge;
 use super::super::vector::{cross, dot, in_units, minus};
 use super::super::{
-    ELEMENT_PAIRS, FIRST_OF_EDGES, Point, Precision, Triangle, barycentric, four_corners,
+    ELEMENT_PAIRS, FIRST_OF_EDGES, Length, Point, Precision, Triangle, barycentric, four_corners,
     intersect, is_swapped, on_edge, reference,
 };
 use super::{Primitives, are_within_distance, closest, closest_of, fraction};
@@ -56,8 +56,9 @@ pub fn are_triangles_within(
     precision: Precision,
     a: &Triangle,
     b: &Triangle,
-    distance: f64,
+    distance: impl Into<Length>,
 ) -> bool {
+    let distance = distance.into();
     intersect(precision, a, b, &mut 0)
         || (0..ELEMENT_PAIRS).any(|which| are_within_distance(&pair(which, a, b), distance))
 }

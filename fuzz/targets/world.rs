@@ -83,6 +83,8 @@ enum Call {
     Distance(u8, u8, Option<u8>),
     Meet(u8, u8, u8, u8),
     Edit(u8, Vec<Change>),
+    Rest(u8, Option<Shape>),
+    Thickness(u8, Vec<u8>),
 }
 
 /// A step of an edit. Numbers are taken modulo one more than the count, so that some name nothing.
@@ -149,6 +151,9 @@ struct Known<S> {
     /// End of the motion, if any; and the group of every vertex.
     end: Option<Vec<[S; 3]>>,
     groups: Vec<u32>,
+    /// Rest shape and thickness, if there are any.
+    rest: Option<Vec<[S; 3]>>,
+    thickness: Option<Vec<f64>>,
     membership: u32,
     mask: u32,
     environment: u32,
@@ -295,6 +300,8 @@ impl<S: Scalar> Lived<S> {
                     triangles,
                     empty: vec![false; positions.len()],
                     groups: vec![0; positions.len()],
+                    rest: None,
+                    thickness: None,
                     end: None,
                     positions,
                     membership,
@@ -343,6 +350,11 @@ impl<S: Scalar> Lived<S> {
                         && known.empty == none_is_empty;
                     if !is_same {
                         known.groups = vec![0; positions.len()];
+                        known.rest = None;
+                        if let Some(all) = &mut known.thickness {
+                            let most = all.iter().copied().fold(0.0, f64::max);
+                            *all = vec![most; positions.len()];
+                        }
                     }
                     known.numbers = (0..triangles.len() as u32).collect();
                     known.count = triangles.len();
@@ -637,6 +649,29 @@ impl<S: Scalar> Lived<S> {
                 let set = self.world.set_vertex_groups(known.id, &known.groups);
                 set.expect("one for each vertex");
             }
+            Call::Rest(number, ref shape) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                let count = self.known[body].positions.len();
+                let rest = shape.as_ref().map(|shape| self.places(shape, count));
+                let known = &mut self.known[body];
+                let set = self.world.set_rest_positions(known.id, rest.as_deref());
+                set.expect("places are good");
+                known.rest = rest;
+            }
+            Call::Thickness(number, ref thickness) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                let known = &mut self.known[body];
+                let all = thickness.iter().map(|&it| f64::from(it) / 64.0);
+                let all = all.chain(std::iter::repeat(0.0));
+                let all: Vec<f64> = all.take(known.positions.len()).collect();
+                let set = self.world.set_vertex_thickness(known.id, &all);
+                set.expect("one for each vertex");
+                known.thickness = all.iter().any(|&it| it > 0.0).then_some(all);
+            }
             Call::Near(a, b, radius) => {
                 let (Some(a), Some(b)) = (self.body(a), self.body(b)) else {
                     return;
@@ -694,7 +729,7 @@ impl<S: Scalar> Lived<S> {
             is_good &= match *change {
                 Change::AddVertex(at) => {
                     edit.add_vertex(point(at));
-                    mesh.add_vertex(point(at), 0);
+                    mesh.add_vertex(mesh.new_at(point(at)));
                     true
                 }
                 Change::PlaceVertex(number, at) => {
@@ -761,6 +796,17 @@ impl<S: Scalar> Lived<S> {
             live.filter(|(empty, _)| !**empty)
                 .all(|(_, (known, group))| *known == group)
         );
+        let thickness = self.world.thickness(known.id).expect("the body is there");
+        let rest = self
+            .world
+            .rest_positions(known.id)
+            .expect("the body is there");
+        assert_eq!(rest.is_some(), known.rest.is_some());
+        for vertex in (0..known.empty.len()).filter(|&vertex| !known.empty[vertex]) {
+            assert_eq!(thickness[vertex], known.thick(vertex as u32));
+            let own = known.rest.as_ref().map(|rest| rest[vertex]);
+            assert_eq!(rest.map(|rest| rest[vertex]), own);
+        }
     }
 
     /// Compares the candidates of two bodies, or of one with itself.
@@ -808,6 +854,7 @@ impl<S: Scalar> Lived<S> {
 
     /// Compares the close pairs of two bodies, or of one with itself.
     fn close(&mut self, a: usize, b: usize, distance: f64) {
+        let most = distance + self.known[a].thickest() + self.known[b].thickest();
         let (one, other) = (&self.known[a], &self.known[b]);
         let of = selection(one, other);
         let [moving_a, moving_b] = [one, other].map(Known::moving);
@@ -829,7 +876,7 @@ impl<S: Scalar> Lived<S> {
         let found = self.world.close_vertex_triangle_pairs(of, distance).all();
         let found = found.expect("both are there").iter();
         let figures = found.clone().map(|it| (it.distance, it.direction));
-        figures.for_each(|it| check_figures(it, distance));
+        figures.for_each(|it| check_figures(it, most));
         assert!(found.map(|it| <[u32; 4]>::from(it.pair)).eq(expected));
 
         let (one, other) = in_order(one, other);
@@ -848,7 +895,7 @@ impl<S: Scalar> Lived<S> {
         let found = self.world.close_edge_edge_pairs(of, distance).all();
         let found = found.expect("both are there").to_vec().into_iter();
         let figures = found.clone().map(|it| (it.distance, it.direction));
-        figures.for_each(|it| check_figures(it, distance));
+        figures.for_each(|it| check_figures(it, most));
         let found = found.map(|it| ([it.pair.edge_a, it.pair.edge_b], ()));
         assert_eq!(self.found_by_ends([one.id, other.id], found), expected);
 
@@ -857,7 +904,7 @@ impl<S: Scalar> Lived<S> {
         let found = self.world.close_triangle_pairs(of, distance).all();
         let found = found.expect("both are there").iter();
         let figures = found.clone().map(|it| (it.distance, it.direction));
-        figures.for_each(|it| check_figures(it, distance));
+        figures.for_each(|it| check_figures(it, most));
         assert!(found.map(|it| it.pair.triangles()).eq(expected));
     }
 
@@ -914,7 +961,8 @@ impl<S: Scalar> Lived<S> {
             .collision_free_step(of, gap)
             .expect("both are there");
         assert!((0.0..=1.0).contains(&step));
-        assert!(gap > 0.0 || first.is_some() || step == 1.0);
+        let is_thick = [a, b].iter().any(|&it| self.known[it].thickest() > 0.0);
+        assert!(gap > 0.0 || is_thick || first.is_some() || step == 1.0);
         let mut there = World::<S>::new();
         let moved = [a, b].map(|body| {
             let known = &self.known[body];
@@ -1078,11 +1126,22 @@ impl<S: Scalar> Lived<S> {
     }
 }
 
+/// A vertex in a naive edit.
+#[derive(Clone, Copy)]
+struct Vertex<S> {
+    at: [S; 3],
+    group: u32,
+    rest: [S; 3],
+    thickness: f64,
+}
+
 /// A naive edit of a mesh. A step that is refused makes all of it bad.
 struct Draft<S> {
     triangles: Vec<Option<[u32; 3]>>,
-    /// Position and group of each vertex; `None` if it is empty.
-    vertices: Vec<Option<([S; 3], u32)>>,
+    /// `None` if it is empty.
+    vertices: Vec<Option<Vertex<S>>>,
+    /// Largest thickness, which new vertices have.
+    thickest: f64,
     /// Empty vertices that were placed again.
     placed: Vec<u32>,
 }
@@ -1093,11 +1152,22 @@ impl<S: Scalar> Draft<S> {
         for (&number, &corners) in known.numbers.iter().zip(&known.triangles) {
             triangles[number as usize] = Some(corners);
         }
-        let vertices = known.positions.iter().zip(&known.groups).zip(&known.empty);
-        let vertices = vertices.map(|((&at, &group), empty)| (!empty).then_some((at, group)));
+        let vertex = |vertex: usize| {
+            (!known.empty[vertex]).then(|| Vertex {
+                at: known.positions[vertex],
+                group: known.groups[vertex],
+                rest: known
+                    .rest
+                    .as_ref()
+                    .map_or(known.positions[vertex], |it| it[vertex]),
+                thickness: known.thickness.as_ref().map_or(0.0, |it| it[vertex]),
+            })
+        };
+        let thickness = known.thickness.iter().flatten();
         Self {
             triangles,
-            vertices: vertices.collect(),
+            vertices: (0..known.positions.len()).map(vertex).collect(),
+            thickest: thickness.copied().fold(0.0, f64::max),
             placed: Vec::new(),
         }
     }
@@ -1111,15 +1181,26 @@ impl<S: Scalar> Draft<S> {
         triangles.any(|corners| corners.contains(&vertex))
     }
 
-    fn add_vertex(&mut self, at: [S; 3], group: u32) -> u32 {
-        self.vertices.push(Some((at, group)));
+    /// A vertex that is new at a place.
+    fn new_at(&self, at: [S; 3]) -> Vertex<S> {
+        Vertex {
+            at,
+            group: 0,
+            rest: at,
+            thickness: self.thickest,
+        }
+    }
+
+    fn add_vertex(&mut self, vertex: Vertex<S>) -> u32 {
+        self.vertices.push(Some(vertex));
         self.vertices.len() as u32 - 1
     }
 
     fn place_vertex(&mut self, vertex: u32, at: [S; 3]) -> bool {
+        let new = self.new_at(at);
         match self.vertices.get_mut(vertex as usize) {
             Some(place @ None) => {
-                *place = Some((at, 0));
+                *place = Some(new);
                 self.placed.push(vertex);
                 true
             }
@@ -1128,10 +1209,10 @@ impl<S: Scalar> Draft<S> {
     }
 
     fn split_vertex(&mut self, vertex: u32, of: &[u32]) -> bool {
-        let Some(&Some((at, group))) = self.vertices.get(vertex as usize) else {
+        let Some(&Some(same)) = self.vertices.get(vertex as usize) else {
             return false;
         };
-        let new = self.add_vertex(at, group);
+        let new = self.add_vertex(same);
         of.iter().all(|&triangle| {
             let corners = self.triangles.get_mut(triangle as usize);
             let Some(Some(corners)) =
@@ -1196,14 +1277,39 @@ impl<S: Scalar> Draft<S> {
         (known.numbers, known.triangles) = live.unzip();
         known.count = self.triangles.len();
         known.empty = self.vertices.iter().map(Option::is_none).collect();
+        let empty = Vertex {
+            at: [anything; 3],
+            group: 0,
+            rest: [anything; 3],
+            thickness: 0.0,
+        };
         let vertices = self.vertices.into_iter();
-        let vertices = vertices.map(|it| it.unwrap_or(([anything; 3], 0)));
-        (known.positions, known.groups) = vertices.unzip();
+        let vertices: Vec<Vertex<S>> = vertices.map(|it| it.unwrap_or(empty)).collect();
+        known.positions = vertices.iter().map(|it| it.at).collect();
+        known.groups = vertices.iter().map(|it| it.group).collect();
+        if let Some(rest) = &mut known.rest {
+            *rest = vertices.iter().map(|it| it.rest).collect();
+        }
+        if let Some(thickness) = &mut known.thickness {
+            *thickness = vertices.iter().map(|it| it.thickness).collect();
+        }
         known.end = None;
     }
 }
 
 impl<S> Known<S> {
+    /// Thickness of a vertex.
+    fn thick(&self, vertex: u32) -> f64 {
+        let all = self.thickness.as_ref();
+        all.map_or(0.0, |all| all[vertex as usize])
+    }
+
+    /// Largest thickness.
+    fn thickest(&self) -> f64 {
+        let all = self.thickness.iter().flatten();
+        all.copied().fold(0.0, f64::max)
+    }
+
     /// Edges, numbered as before any edit.
     fn edges(&self) -> Vec<[u32; 2]> {
         reference::edges(&self.triangles)
@@ -1231,6 +1337,7 @@ impl<S> Known<S> {
             end: self.end.as_deref(),
             groups: Some(&self.groups),
             rest: self.rest.as_deref(),
+            thickness: self.thickness.as_deref(),
         }
     }
 }
@@ -1270,14 +1377,36 @@ fn pairs<S: Scalar>(a: &Known<S>, b: &Known<S>) -> Vec<[u32; 2]> {
     numbered(a, b, pairs.expect("the bodies were taken"))
 }
 
+/// Distances and thicknesses are multiples of 1/64, so their sums are exact.
 fn close_triangles<S: Scalar>(a: &Known<S>, b: &Known<S>, distance: f64) -> Vec<[u32; 2]> {
-    let pairs = if a.id == b.id {
-        reference::self_close_triangle_pairs(&a.triangles, &a.positions, distance)
-    } else {
-        let (of_a, of_b) = ((&a.triangles, &a.positions), (&b.triangles, &b.positions));
-        reference::close_triangle_pairs(of_a.0, of_a.1, of_b.0, of_b.1, distance)
+    let is_one = a.id == b.id;
+    let thick = |body: &Known<S>, triangle: [u32; 3]| {
+        let all = triangle.map(|vertex| body.thick(vertex));
+        all.into_iter().fold(0.0, f64::max)
     };
-    numbered(a, b, pairs.expect("the bodies were taken"))
+    let mut pairs = Vec::new();
+    for (i, &of_a) in (0..).zip(&a.triangles) {
+        for (j, &of_b) in (0..).zip(&b.triangles) {
+            let distance = distance + thick(a, of_a) + thick(b, of_b);
+            let are_close = |at_a: &[[S; 3]], at_b: &[[S; 3]]| {
+                let close = if is_one {
+                    reference::self_close_triangle_pairs(&[of_a, of_b], at_a, distance)
+                } else {
+                    reference::close_triangle_pairs(&[of_a], at_a, &[of_b], at_b, distance)
+                };
+                !close.expect("the bodies were taken").is_empty()
+            };
+            let rest = a.rest.as_deref().filter(|_| is_one);
+            let is_pair = !is_one || i < j;
+            if is_pair
+                && are_close(&a.positions, &b.positions)
+                && !rest.is_some_and(|rest| are_close(rest, rest))
+            {
+                pairs.push([i, j]);
+            }
+        }
+    }
+    numbered(a, b, pairs)
 }
 
 /// Pairs of triangles that are not empty, by their numbers.

@@ -194,6 +194,24 @@ pub(crate) fn numbers(given: &Any<'_>, [name, what]: [&str; 2]) -> Result<Vec<u3
     rows.iter().map(number).collect()
 }
 
+/// Copies an (n,) array of floating-point numbers, or of integers.
+///
+/// `name` and `what` say in messages what the numbers are.
+pub(crate) fn floats(given: &Any<'_>, [name, what]: [&str; 2]) -> Result<Vec<f64>> {
+    refuse_masks(given, name)?;
+    let array = as_numpy(given, name)?;
+    let dtype = array.dtype();
+    if array.ndim() != 1 || !matches!(dtype.kind(), b'f' | b'u' | b'i') {
+        let dimensions = array.ndim();
+        return Err(refused!(BadArray:
+            "{name} has {dimensions} dimensions and is of type {dtype}; it must be a number, or an \
+             array of numbers, {what}"));
+    }
+    Ok(array
+        .call_method0(intern!(given.py(), "tolist"))?
+        .extract()?)
+}
+
 /// Copies edges (k, 2) of any integer type: the two vertices of each.
 pub(crate) fn edges_of(edges: &Any<'_>) -> Result<Vec<[u32; 2]>> {
     let array = as_numpy(edges, "edges")?;

@@ -157,6 +157,7 @@ impl From<pliant::Error> for Refused {
             NeedsSubnormals { vertex }
             NotWritten { vertex }
             TooManyHits { limit }
+            BadThickness { vertex, thickness }
             NoSuchTriangle { triangle, triangles }
             EmptyTriangle { triangle }
             NoSuchVertex { vertex, vertices }

@@ -1,7 +1,7 @@
 //! State of a world as pickle writes it, and a world restored from it.
 //!
-//! Written are bodies by number, with shape, motion, filter, environment, vertex groups, rest shape
-//! and loose box, and the ignored pairs. Options are arguments of the constructor that pickle
+//! Written are bodies by number, with shape, motion, filter, environment, vertex groups, rest
+//! shape, thickness and loose box, and the ignored pairs. Options are arguments of the constructor that pickle
 //! calls. Trees are not written but built anew on the present shapes, which changes no answer.
 //! Numbers of edges are written once somebody has asked for them, so they stay; older pickles lack
 //! them. A state that is read is checked, for it is restored by the calls that a caller would make.
@@ -25,6 +25,7 @@ struct CopiedBody {
     end: Option<Owned>,
     groups: Vec<u32>,
     rest: Option<Owned>,
+    thickness: Vec<f64>,
     edges: Option<Rows<u32, 2>>,
     filter: (u32, u32),
     environment: u32,
@@ -61,6 +62,8 @@ struct WrittenBody<'py> {
     #[pyo3(default)]
     rest: Option<Any<'py>>,
     #[pyo3(default)]
+    thickness: Vec<f64>,
+    #[pyo3(default)]
     edges: Option<Bound<'py, PyArray2<u32>>>,
     filter: (u32, u32),
     #[pyo3(default)]
@@ -81,6 +84,10 @@ impl Copied {
                 if groups.iter().all(|&group| group == 0) {
                     groups.clear();
                 }
+                let mut thickness = world.thickness(id)?;
+                if thickness.iter().all(|&thickness| thickness == 0.0) {
+                    thickness.clear();
+                }
                 let edges = world.numbered_edges(id)?;
                 Ok(CopiedBody {
                     body: id.0,
@@ -89,6 +96,7 @@ impl Copied {
                     end: world.end_positions(id)?.map(Owned::from),
                     groups,
                     rest: world.rest_positions(id)?.map(|rest| Owned::from(rest.to_vec())),
+                    thickness,
                     edges: edges.map(|edges| Rows(edges.to_vec())),
                     filter: world.filter(id)?,
                     environment: world.environment(id)?,
@@ -150,6 +158,10 @@ impl Written<'_> {
             if let Some(rest) = &written.rest {
                 let rest = CopiedCoordinates::of(rest)?;
                 state.set_rest_positions(body, rest.get()?)?;
+            }
+            if !written.thickness.is_empty() {
+                let all = &written.thickness;
+                with_world!(&mut state.world, world => world.set_vertex_thickness(body, all)?);
             }
             if !written.groups.is_empty() {
                 let groups = &written.groups;

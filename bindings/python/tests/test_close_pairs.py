@@ -231,6 +231,41 @@ def test_what_is_close_at_rest_is_left_out(dtype: Any) -> None:
         assert len(again.close_triangle_pairs(Selection.EVERYTHING, 1.1).all().pairs) == len(found[2])
     with pytest.raises(pliant.Error) as refused:
         world.set_rest_positions(cloth, flat[1:])
-    assert refused.value.kind == "WrongLength" and "rest positions" in str(refused.value)
+    assert refused.value.kind == "WrongLength" and "positions" in str(refused.value)
     world.set_rest_positions(cloth, None)
     assert rows() == every
+
+
+def test_thickness_counts_for_close_pairs_and_candidates() -> None:
+    faces, flat = sheet(4)
+    world = pliant.World()
+    low, high = (world.add(faces, flat + [0.3, 0.2, height]) for height in (0.0, 1.0))
+    of = Selection.between(low, high)
+    asked = [
+        lambda: world.close_vertex_triangle_pairs(of, 0.25),
+        lambda: world.close_edge_edge_pairs(of, 0.25),
+        lambda: world.close_triangle_pairs(of, 0.25),
+        lambda: world.edge_edge_candidates(of, 0.125),
+        lambda: world.vertex_triangle_candidates(of, 0.125),
+    ]
+    assert not any(len(one()) for one in asked)
+    world.set_thickness(low, 0.25)
+    world.set_thickness(high, 0.5)
+    assert all(len(one()) for one in asked)
+    assert world.close_vertex_triangle_pairs(of, 0.25).all().distance.min() == 1.0
+    assert world.clearance(of, 2.0)[low].min() == pytest.approx(0.125, abs=1e-6)
+    every = world.close_vertex_triangle_pairs(of, 0.25).all()
+    # One vertex that is thick enough: its own triangles, and itself.
+    of_vertices = np.zeros(16)
+    of_vertices[5] = 0.5
+    world.set_thickness(high, of_vertices)
+    some = world.close_vertex_triangle_pairs(of, 0.25).all()
+    is_thick = np.where(some.pairs[:, 2] == high, (faces[some.pairs[:, 3]] == 5).any(1), some.pairs[:, 1] == 5)
+    assert 0 < len(some) < len(every) and is_thick.all()
+    again = pickle.loads(pickle.dumps(world))
+    assert again.thickness(high).tolist() == world.thickness(high).tolist() == of_vertices.tolist()
+    assert again.thickness(low).tolist() == [0.25] * 16
+    for bad, kind in ((-1, "BadThickness"), ([1.0], "WrongLength"), ("thick", "BadArray"), (np.full(16, np.nan), "BadThickness")):
+        with pytest.raises(pliant.Error) as refused:
+            world.set_thickness(low, bad)
+        assert refused.value.kind == kind, refused.value

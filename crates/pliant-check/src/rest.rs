@@ -4,14 +4,13 @@
 //! given again from here, which only works for the mesh that it is of.
 
 use crate::error::Error;
-use crate::sequence::{FIRST, MeshNumber};
 use pliant_io::{Body as Source, OpenOptions, Precision};
 use std::path::Path;
 
 /// Rest shape of a source.
 pub(crate) struct RestShape {
-    /// Mesh that it is of.
-    pub(crate) mesh: MeshNumber,
+    /// Number of the mesh that it is of: [`Source::mesh_number`].
+    pub(crate) mesh: u64,
     pub(crate) positions: Vec<[f64; 3]>,
     pub(crate) precision: Precision,
 }
@@ -67,7 +66,7 @@ impl RestShape {
             )));
         }
         Ok(Self {
-            mesh: FIRST,
+            mesh: source.mesh_number(),
             ..Self::of(&rest)
         })
     }

@@ -12,10 +12,9 @@ use super::ring::Ring;
 /// ```
 /// use pliant_exact::Length;
 ///
-/// let length = Length::sum([0.1, 0.2, 0.0]);
-/// let [low, high] = length.bounds();
-/// assert!(low < high && high <= (0.1_f64 + 0.2).next_up());
-/// assert_eq!(Length::from(0.3).bounds(), [0.3; 2]);
+/// let [low, high] = Length::sum([0.1, 0.2, 0.0]).bounds();
+/// assert!(low < 0.1 + 0.2 && 0.1 + 0.2 < high);
+/// assert_eq!(Length::sum([0.5, 0.25, 0.0]).bounds(), [0.75; 2]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Length([f64; 3]);
@@ -38,17 +37,26 @@ impl Length {
         Self(numbers)
     }
 
-    /// Lower and upper bound; both are the length if at most one number is not 0.
+    /// Lower and upper bound; both are the length if that is a floating-point number.
     #[inline]
     pub fn bounds(&self) -> [f64; 2] {
         let [a, b, c] = self.0;
         if b == 0.0 && c == 0.0 {
             return [a; 2];
         }
-        // Two sums, each off by half a unit in the last place at most.
+        // Two sums, each off by half a unit in the last place at most. The error of a sum (Knuth
+        // 1969) tells whether it is off at all.
+        let error = |a: f64, b: f64| {
+            let sum = a + b;
+            let of_a = sum - b;
+            (a - of_a) + (b - (sum - of_a))
+        };
         let sum = a + b + c;
         if sum < TINY {
             return [0.0, TINY];
+        }
+        if error(a, b) == 0.0 && error(a + b, c) == 0.0 {
+            return [sum; 2];
         }
         [sum.next_down().next_down(), sum.next_up()]
     }

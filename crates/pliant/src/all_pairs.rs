@@ -97,10 +97,13 @@ pub struct Moving<'m, S> {
     /// Positions in the rest shape, shape (n, 3), if the body has one: see
     /// [`World::set_rest_positions`](crate::World::set_rest_positions).
     pub rest: Option<&'m [[S; 3]]>,
+    /// Thickness of the vertices, shape (n,), if the body has any: see
+    /// [`World::set_thickness`](crate::World::set_thickness).
+    pub thickness: Option<&'m [f64]>,
 }
 
 impl<'m, S> Moving<'m, S> {
-    /// A body at these positions that stands still, with neither groups nor a rest shape.
+    /// A body at these positions that stands still, with neither groups, rest shape nor thickness.
     pub fn at(triangles: &'m [[u32; 3]], positions: &'m [[S; 3]]) -> Self {
         Self {
             triangles,
@@ -108,6 +111,7 @@ impl<'m, S> Moving<'m, S> {
             end: None,
             groups: None,
             rest: None,
+            thickness: None,
         }
     }
 
@@ -140,6 +144,12 @@ impl<'m, S> Moving<'m, S> {
     fn vertices(&self) -> Vec<(u32, Vec<u32>)> {
         let used: BTreeSet<u32> = self.triangles.as_flattened().iter().copied().collect();
         used.into_iter().map(|it| (it, vec![it])).collect()
+    }
+
+    /// The largest thickness of some vertices.
+    pub(crate) fn thickness_of(&self, vertices: &[u32]) -> f64 {
+        let of = |&vertex: &u32| self.thickness.map_or(0.0, |all| all[vertex as usize]);
+        vertices.iter().map(of).fold(0.0, f64::max)
     }
 
     fn group(&self, vertex: u32) -> u32 {

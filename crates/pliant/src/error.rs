@@ -42,9 +42,9 @@ pub enum ErrorKind {
         /// The vertices the body has.
         vertices: usize,
     },
-    /// The number of positions, or of groups, is not the number of vertices of the body.
+    /// The number of positions, groups or thicknesses is not the number of vertices of the body.
     WrongLength {
-        /// `"positions"` or `"groups"`.
+        /// `"positions"`, `"rest positions"`, `"groups"` or `"thicknesses"`.
         what: &'static str,
         /// Vertices of the body.
         expected: usize,
@@ -103,6 +103,13 @@ pub enum ErrorKind {
     BadDistance {
         /// The distance.
         distance: f64,
+    },
+    /// The thickness of a vertex is negative, infinite or NaN.
+    BadThickness {
+        /// The vertex.
+        vertex: usize,
+        /// Its thickness.
+        thickness: f64,
     },
     /// Corners are given for different numbers of pairs at the start and at the end of motions.
     DifferentCounts {
@@ -313,6 +320,11 @@ impl ErrorKind {
             Self::BadDistance { distance } => write!(
                 f,
                 "the distance is {distance}; give a finite number that is at least 0"
+            ),
+            Self::BadThickness { vertex, thickness } => write!(
+                f,
+                "the thickness of vertex {vertex} is {thickness}; give a finite number that is at \
+                 least 0"
             ),
             Self::DifferentCounts { start, end } => write!(
                 f,

@@ -189,6 +189,10 @@ class World:
         """Gives a body a rest shape, positions (n, 3), or takes it away with None."""
     def rest_positions(self, body: SupportsIndex) -> NDArray[Any] | None:
         """Positions of a body in its rest shape, a new array (n, 3), or None if it has none."""
+    def set_thickness(self, body: SupportsIndex, thickness: float | _Array) -> None:
+        """Makes a body thick: thickness is a float, or (n,) floats, one for each vertex, at least 0."""
+    def thickness(self, body: SupportsIndex) -> NDArray[np.float64]:
+        """Thickness of every vertex of a body, a new array (n,) float64."""
     def vertex_groups(self, body: SupportsIndex) -> NDArray[np.uint32]:
         """Group of every vertex of a body, a new array (n,) uint32."""
     def edges(self, body: SupportsIndex) -> NDArray[np.uint32]:

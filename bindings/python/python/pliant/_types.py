@@ -27,6 +27,7 @@ class Error(ValueError):
       BadLooseBox       corners not finite, or the lower above the upper
       Precision         float64 positions in a float32 world
       BadArray          an array of a wrong shape or dtype, or with masked numbers
+      BadThickness      a thickness is negative, infinite or NaN: vertex, thickness
 
     Of a question:
 

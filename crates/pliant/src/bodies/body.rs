@@ -15,6 +15,7 @@ use super::part::Part;
 use super::parts::Parts;
 use super::rebuild::{Rebuild, Work};
 use super::shape::{BodyShape, Staged};
+use super::thickness::BodyThickness;
 use crate::error::ErrorKind;
 use crate::geometry::{Aabb, Bounds, Origin};
 use crate::held::held;
@@ -36,6 +37,7 @@ pub(crate) struct Body<S> {
     parts: Parts,
     rebuild: Rebuild,
     filter: Filter<S>,
+    thickness: BodyThickness,
 }
 
 /// Stride of the triangles that are sampled to know how far vertices move.
@@ -64,6 +66,7 @@ impl<S: Coordinate> Body<S> {
             parts: Parts::of(tree, triangles.len()),
             rebuild: Rebuild::default(),
             filter: Filter::none(),
+            thickness: BodyThickness::default(),
         }
     }
 
@@ -77,6 +80,7 @@ impl<S: Coordinate> Body<S> {
             parts: self.parts.copy(),
             rebuild: self.rebuild.copy(),
             filter: self.filter.copy(),
+            thickness: self.thickness.copy(),
         }
     }
 
@@ -122,6 +126,21 @@ impl<S: Coordinate> Body<S> {
     /// Group of every vertex.
     pub(crate) fn groups(&self) -> Vec<u32> {
         self.filter.groups(self.mesh.vertex_count())
+    }
+
+    /// Sets the thickness of every vertex, after checking it.
+    pub(crate) fn set_thickness(&mut self, all: &[f64]) -> Result<(), ErrorKind> {
+        self.thickness.set(all, self.mesh.vertex_count())
+    }
+
+    /// Thickness of every vertex.
+    pub(crate) fn thickness(&self) -> Vec<f64> {
+        self.thickness.all(self.mesh.vertex_count())
+    }
+
+    /// Largest thickness.
+    pub(crate) fn thickest(&self) -> f64 {
+        self.thickness.most()
     }
 
     /// Sets a rest shape after checking it, or removes it.
@@ -216,7 +235,7 @@ impl<S: Coordinate> Body<S> {
         let bounds = self.bounds();
         let way = self.motion.on().filter(|_| boxes.hold_motions);
         let bounds = way.map_or(bounds, |way| bounds.union(&way.end().bounds()));
-        boxes.of(bounds.to_box(origin))
+        boxes.of(bounds.to_box(origin), self.thickness.most())
     }
 
     /// Loose box, which holds every pose, if there is one.
@@ -388,6 +407,7 @@ impl<S: Coordinate> Body<S> {
     ) -> bool {
         let (order, threads) = (self.mesh.order(), (instructions, executor));
         self.filter.know_rest(order);
+        self.thickness.know(order);
         let (shape, motion) = (&mut self.shape, &mut self.motion);
         shape.bring_into_tree_order(threads, order)
             && reach.is_none_or(|reach| motion.bring_into_tree_order(shape, reach, threads, order))
@@ -475,7 +495,8 @@ impl<S: Coordinate> Body<S> {
     ) -> Option<(Read<'_, S>, &BoxSet)> {
         let part = self.parts.all().nth(part)?;
         let (tree, boxes, near_boxes) = part.for_reading(needs.box_set)?;
-        let parts = (&self.mesh, &self.shape, &self.motion, &self.filter);
+        let (mesh, shape, motion) = (&self.mesh, &self.shape, &self.motion);
+        let parts = (mesh, shape, motion, &self.filter, &self.thickness);
         let queried = Queried::of(parts, needs, origin);
         Some((queried.read(tree, near_boxes), boxes))
     }
@@ -487,7 +508,8 @@ impl<S: Coordinate> Body<S> {
         needs: &Needs,
         origin: Origin,
     ) -> (&'b mut Parts, impl Fn(&'b mut Part) -> Side<'b, S>) {
-        let parts = (&self.mesh, &self.shape, &self.motion, &self.filter);
+        let (mesh, shape, motion) = (&self.mesh, &self.shape, &self.motion);
+        let parts = (mesh, shape, motion, &self.filter, &self.thickness);
         let (queried, set) = (Queried::of(parts, needs, origin), needs.box_set);
         (&mut self.parts, move |part: &'b mut Part| {
             let (tree, boxes, near_boxes) = part.for_query(set);
@@ -550,10 +572,11 @@ impl<S: Coordinate> Body<S> {
         self.shape.begin_version();
         self.motion.forget_tree_order(self.mesh.order());
         self.filter.forget_tree_order();
+        self.thickness.forget_tree_order();
         self.parts = Parts::of(tree, order.all_corners().len());
         self.mesh.exchange_order(order, changed);
         self.rebuild.begin_anew();
     }
 }
 
-held!(Body<S>: mesh, shape, motion, parts, rebuild);
+held!(Body<S>: mesh, shape, motion, parts, rebuild, filter, thickness);

@@ -10,6 +10,7 @@
 //! | `parts` | trees, each over a run of triangles |
 //! | `rebuild` | fresh trees for bodies whose tree has decayed |
 //! | `filter` | filters: which bodies and vertices may meet |
+//! | `thickness` | thickness of the vertices |
 //! | `per_vertex` | values that the caller gives vertices, through edits and new orders |
 //! | `checks` | refusal of bad positions |
 //! | `build` | the tree that the options ask for |
@@ -29,6 +30,7 @@ mod parts;
 mod per_vertex;
 mod rebuild;
 mod shape;
+mod thickness;
 
 pub(crate) use body::Body;
 pub(crate) use checks::validate;

@@ -7,8 +7,7 @@
 //! known at once. Differs from the paper, which sweeps and prunes: there all overlapping pairs are
 //! kept, and fast bodies are sorted past most others on every axis.
 
-use super::Boxes;
-use super::overlap::Overlap;
+use super::overlap::{Boxes, Overlap};
 use crate::geometry::{Aabb, Bounds};
 use crate::held::{self, held};
 use crate::ids::Rank;

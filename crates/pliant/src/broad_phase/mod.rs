@@ -12,13 +12,12 @@ mod overlap;
 mod rows;
 mod sweep_and_prune;
 
-use crate::geometry::Aabb;
 use crate::held::held;
 use crate::ids::Rank;
 use crate::kernels::Instructions;
 use crate::threads::{Executor, Interrupt};
 use body_tree::BodyTree;
-pub(crate) use overlap::Overlap;
+pub(crate) use overlap::{Boxes, Overlap};
 use rows::Pass;
 pub(crate) use rows::{Keep, Show};
 use std::ops::ControlFlow;
@@ -30,14 +29,6 @@ const MOST_FOR_BRUTE_FORCE: usize = 100;
 /// The most pairs per body that sweep and prune keeps. Beyond, with many bodies in one place, the
 /// tree takes over.
 const MOST_PAIRS_A_BODY: usize = 16;
-
-/// Boxes of all bodies, and their environments, both by rank.
-#[derive(Clone, Copy)]
-pub(crate) struct Boxes<'b> {
-    pub(crate) of_bodies: &'b [Aabb],
-    /// Bodies of different environments do not meet. Empty if all bodies are in one.
-    pub(crate) environments: &'b [u32],
-}
 
 /// Broad phase of a world, and its memory between passes.
 #[derive(Debug)]
@@ -139,6 +130,7 @@ held!(BroadPhase: sweep, tree, pass);
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Aabb;
     use crate::threads::Threads;
     use std::num::NonZeroUsize;
 

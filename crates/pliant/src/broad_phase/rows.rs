@@ -1,7 +1,8 @@
 //! Rows of a pass, found by several threads: a job has some consecutive bodies and their pairs.
 
 use super::body_tree::{BodyTree, Descent};
-use super::{Boxes, Overlap, brute_force};
+use super::brute_force;
+use super::overlap::{Boxes, Overlap};
 use crate::held::held;
 use crate::ids::Rank;
 use crate::kernels::Instructions;

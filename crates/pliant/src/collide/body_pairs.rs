@@ -246,7 +246,7 @@ impl BodyPairs {
                 let body = bodies.at(place);
                 *exact = body.box_for(boxes, origin);
                 let loose = body.loose_box(origin);
-                *broad = loose.map_or(*exact, |loose| boxes.of(loose));
+                *broad = loose.map_or(*exact, |loose| boxes.of(loose, body.thickest()));
             }
         };
         let nanoseconds = Grain::BOXES.time(ranks.len());

@@ -73,18 +73,18 @@ impl<S: Coordinate> AskedImpacts<S> {
         request: &Request,
         of: OfKind,
     ) -> Result<Option<First>, Error> {
-        Ok(self.earliest(common, request, of, false, 0.0)?.first())
+        Ok(self.earliest(common, request, of, false, None)?.first())
     }
 
     /// Earliest contact of both kinds or one, after the start or at any time. With a distance, the
-    /// first time at which elements come that near.
+    /// first time at which elements come that near, and their thickness.
     fn earliest(
         &mut self,
         common: &mut Common<S>,
         request: &Request,
         of: OfKind,
         after_start: bool,
-        distance: f64,
+        distance: Option<f64>,
     ) -> Result<Earliest, Error> {
         common.bodies.validate(request.of)?;
         let mut statistics = Statistics::default();
@@ -125,16 +125,16 @@ impl<S: Coordinate> AskedImpacts<S> {
         request: &Request,
     ) -> Result<f64, Error> {
         let distance = request.distance()?;
-        let earliest = self.earliest(common, request, OfKind::Both, distance == 0.0, distance)?;
+        let earliest = self.earliest(common, request, OfKind::Both, true, Some(distance))?;
         let mut statistics = common.statistics;
         let known = earliest.known();
         if known > 1.0 {
             return Ok(1.0);
         }
-        let latest = match earliest.first() {
-            Some(first) => first.contact.cell(Grid::new(0.0))[0],
-            None => known,
-        };
+        // Elements without distance and thickness are in contact, others only near.
+        let contact = earliest.first();
+        let contact = contact.map(|first| first.contact.cell(Grid::new(0.0))[0]);
+        let latest = contact.map_or(known, |contact| contact.min(known));
         let mut step = 0.0;
         for part in PARTS {
             step = latest * part;
@@ -190,10 +190,14 @@ fn first_part<S: Coordinate>(common: &Common<S>, of: Selection) -> f64 {
     part
 }
 
-/// Kind that finds contacts up to a time, or elements that come as near as a distance.
-fn impacts<E, S>(reach: Reach, distance: f64) -> Impacts<Candidates<E, S>> {
+/// Kind that finds contacts up to a time, or elements that come as near as a distance and their
+/// thickness.
+fn impacts<E, S>(reach: Reach, distance: Option<f64>) -> Impacts<Candidates<E, S>> {
     // Half the distance for each of two, and a little more than the lanes look for.
-    let margin = Margin::new((distance * (LIMIT / 2.0 + 0.001)).min(f64::MAX));
+    let more = LIMIT + 0.002;
+    let thickness = distance.map_or(0.0, |_| more);
+    let distance = distance.unwrap_or(0.0);
+    let margin = Margin::new((distance * (more / 2.0)).min(f64::MAX)).counting_thickness(thickness);
     Impacts::of(Candidates::within(margin), Grid::new(1.0), reach).or_near(distance)
 }
 
@@ -208,7 +212,7 @@ where
         common: &mut Common<S>,
         request: &Request,
         reach: Reach,
-        distance: f64,
+        distance: Option<f64>,
         known: Earliest,
     ) -> Result<Earliest, Error> {
         let kind = impacts(reach, distance).earlier_than(known);
@@ -225,7 +229,7 @@ where
         time: f64,
         distance: f64,
     ) -> Result<bool, Error> {
-        let kind = impacts(Reach::To(time), distance).any();
+        let kind = impacts(Reach::To(time), Some(distance)).any();
         self.search(&kind, common, request)?;
         Ok(kind.into_earliest().known() > 1.0)
     }

@@ -2,6 +2,7 @@
 
 use super::Real;
 use super::real::{OUTWARD, larger, smaller};
+use pliant_exact::Length;
 use std::array::from_fn;
 
 /// Origin that the boxes of a world are relative to, and padding.
@@ -85,7 +86,7 @@ impl Aabb {
 
 impl Bounds<f64> {
     /// Whether two bounds are at most `distance` apart on every axis, decided exactly.
-    pub(crate) fn are_within(&self, other: &Self, distance: f64) -> bool {
+    pub(crate) fn are_within(&self, other: &Self, distance: impl Into<Length>) -> bool {
         pliant_exact::are_boxes_within(&[self.lo, self.hi], &[other.lo, other.hi], distance)
     }
 }

@@ -353,7 +353,7 @@ mod tests {
                             Elements::VertexTriangle => Primitives::VertexTriangle(corners),
                             Elements::EdgeEdge => Primitives::EdgeEdge(corners),
                         };
-                        assert!(!are_within_distance(&elements, distance.into()));
+                        assert!(!are_within_distance(&elements, f64::from(distance)));
                     }
                 }
             }

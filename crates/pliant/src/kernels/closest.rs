@@ -313,9 +313,10 @@ pub(crate) fn of_triangles<I: Simd, S: Real>(
     nearest
 }
 
-/// Decides in single precision which of eight pairs are at most `distance` apart, and which are
+/// Decides in single precision which of eight pairs are at most some distance apart, and which are
 /// further apart.
 ///
+/// `limits` are bounds of that distance, lower and upper, in lanes: see [`rounded_outward`].
 /// Returns two bit masks of the pairs for which this is certain: near, then far. `of_elements` or
 /// exact arithmetic decides the others.
 ///
@@ -337,7 +338,7 @@ pub(crate) fn decide_eight<I: Simd, S: Coordinate>(
     i: I,
     are_edges: bool,
     pairs: &[FourCorners<S>; 8],
-    distance: f64,
+    limits: &[[f32; 8]; 2],
 ) -> [u64; 2] {
     let less = |k: usize, l: usize| eight_differences(i, |lane| [pairs[lane][k], pairs[lane][l]]);
     let found = if are_edges {
@@ -349,18 +350,29 @@ pub(crate) fn decide_eight<I: Simd, S: Coordinate>(
         let differences = [t, minus(t, e1), minus(t, e2)];
         vertices_and_triangles(i, differences, [e1, e2, minus(e2, e1)])
     };
-    let nearest = distance as f32;
-    let is_above = f64::from(nearest) > distance;
-    let is_below = f64::from(nearest) < distance;
-    let below = if is_above {
-        nearest.next_down()
-    } else {
-        nearest
-    };
-    let above = if is_below { nearest.next_up() } else { nearest };
-    let is_close = found.most.simd_le(f32x8::splat(i, below));
-    let is_far = found.least.simd_gt(f32x8::splat(i, above));
+    let [below, above] = limits
+        .each_ref()
+        .map(|lanes| f32x8::load_array_ref(i, lanes));
+    let is_close = found.most.simd_le(below);
+    let is_far = found.least.simd_gt(above);
     [is_close.to_bitmask(), is_far.to_bitmask()]
+}
+
+/// Bounds of a distance, rounded outward.
+#[inline]
+pub(crate) fn rounded_outward([least, most]: [f64; 2]) -> [f32; 2] {
+    let [low, high] = [least as f32, most as f32];
+    let low = if f64::from(low) > least {
+        low.next_down()
+    } else {
+        low
+    };
+    let high = if f64::from(high) < most {
+        high.next_up()
+    } else {
+        high
+    };
+    [low, high]
 }
 
 /// Unit direction of the common normal of two elements, and a lower bound of their distance along
@@ -626,7 +638,8 @@ mod tests {
         pairs[lane] = corners.each_ref();
         let mut of_all: Option<[u64; 2]> = None;
         for instructions in Instructions::all() {
-            let masks = dispatch!(instructions, i => decide_eight(i, are_edges, &pairs, distance));
+            let limits = rounded_outward([distance; 2]).map(|limit| [limit; 8]);
+            let masks = dispatch!(instructions, i => decide_eight(i, are_edges, &pairs, &limits));
             assert_eq!(*of_all.get_or_insert(masks), masks);
         }
         of_all

@@ -47,14 +47,13 @@ pub(crate) struct Limits {
 }
 
 impl Limits {
-    /// Limits for a distance of at least 0, where no coordinate is further than `most` from the
-    /// origin on any axis.
-    pub(crate) fn new<S: Real>(distance: f64, most: f64) -> Self {
+    /// Limits for a distance of at least 0 between two bounds, where no coordinate is further than
+    /// `most` from the origin on any axis.
+    pub(crate) fn new<S: Real>([least, greatest]: [f64; 2], most: f64) -> Self {
         if S::BOXES_ARE_EXACT {
-            let rounded = distance as f32;
             return Self {
-                sure: rounded,
-                possible: rounded,
+                sure: least as f32,
+                possible: greatest as f32,
             };
         }
         if most > f64::from(f32::MAX) / 4.0 {
@@ -65,8 +64,8 @@ impl Limits {
         }
         let error = most * f64::powi(0.5, 21) + f64::powi(0.5, 120);
         Self {
-            sure: ((distance - error) as f32).next_down(),
-            possible: ((distance + error) as f32).next_up(),
+            sure: ((least - error) as f32).next_down(),
+            possible: ((greatest + error) as f32).next_up(),
         }
     }
 
@@ -288,7 +287,7 @@ mod tests {
                         let all = [a, b].map(|lanes| lanes.get(0));
                         let most = all.iter().flat_map(|it| [it.lo, it.hi]).flatten();
                         let most = most.fold(0.0, |most: f32, x| most.max(x.abs()));
-                        let limits = Limits::new::<S>(distance, most.into());
+                        let limits = Limits::new::<S>([distance; 2], most.into());
                         let decide = |limits| {
                             let [a, b] = [(&a, &lanes[0]), (&b, &lanes[1])];
                             let (possible, is_unsure) = near_pairs(i, a, 1, b, true, limits);
@@ -301,7 +300,7 @@ mod tests {
                         assert!(!sure || expected, "{corners:?} {origin:?} {distance}");
                         assert!(possible || !expected, "{corners:?} {origin:?} {distance}");
                         uncertain += usize::from(possible && !sure);
-                        let narrow = Limits::new::<S>(distance, f64::from(most) / 64.0);
+                        let narrow = Limits::new::<S>([distance; 2], f64::from(most) / 64.0);
                         let (sure, possible) = decide(narrow);
                         wrong += usize::from(sure && !expected || !possible && expected);
                     });

@@ -158,7 +158,10 @@ mod tests {
             let all = eights(random, count);
             // Gaps are whole numbers. A gap of 1 is near but not surely; in double precision too,
             // if coordinates are that large.
-            let limits = [Limits::new::<f32>(1.0, 7.0), Limits::new::<f64>(1.0, 2e6)][round % 2];
+            let limits = [
+                Limits::new::<f32>([1.0; 2], 7.0),
+                Limits::new::<f64>([1.0; 2], 2e6),
+            ][round % 2];
             let element = |place: usize| {
                 let ((boxes, corners), lane) = (all[place / 8], place % 8);
                 (boxes.get(lane), corners.map(|corner| corner[lane]))

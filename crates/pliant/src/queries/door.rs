@@ -5,7 +5,7 @@
 //! for every task, a `dyn` [`LeafWork`]. So it is compiled once for `f32` and once for `f64`,
 //! whatever kinds there are.
 
-use super::near::{NearElements, Which};
+use super::near::{NearElements, Thicknesses, Which};
 use crate::geometry::{Aabb, Points, Shape};
 use crate::held::Held;
 use crate::ids::{BodyId, TreeTriangle};
@@ -36,6 +36,9 @@ pub(crate) struct Needs {
     pub(crate) leaves: Shown,
     /// Distance by which boxes are grown on every side. None if boxes are not grown.
     pub(crate) grows_by: Option<f32>,
+    /// By how much of a body's thickness boxes are grown besides; 0 for kinds that do not look at
+    /// it.
+    pub(crate) counts_thickness: f64,
     /// How far the query looks along motions. None if it does not.
     pub(crate) reach: Option<Reach>,
     /// Whether things are no hits that are further apart than twice `grows_by`, even where their
@@ -51,6 +54,7 @@ impl Needs {
         box_set: OF_SHAPES,
         leaves: Shown::Triangles,
         grows_by: None,
+        counts_thickness: 0.0,
         reach: None,
         culls_by_capsules: true,
         heeds_rest: false,
@@ -61,10 +65,17 @@ impl Needs {
         self.leaves == Shown::Triangles
     }
 
+    /// Distance by which boxes of a body are grown, whose largest thickness is this.
+    pub(crate) fn grows(&self, thickness: f64) -> Option<f32> {
+        let by = self.counts_thickness * thickness;
+        self.grows_by.map(|distance| grown(distance, by))
+    }
+
     /// How boxes of bodies are made for this query.
     pub(crate) fn body_boxes(&self) -> BodyBoxes {
         BodyBoxes {
             grow_by: self.grows_by,
+            counts_thickness: self.counts_thickness,
             hold_motions: self.reach.is_some(),
         }
     }
@@ -186,14 +197,27 @@ pub(crate) trait LeafWork<S> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct BodyBoxes {
     grow_by: Option<f32>,
+    counts_thickness: f64,
     pub(crate) hold_motions: bool,
 }
 
 impl BodyBoxes {
-    /// Box of a body, from the box of its shape, or of both ends of its motion.
-    pub(crate) fn of(self, shape: Aabb) -> Aabb {
-        self.grow_by.map_or(shape, |distance| shape.grown(distance))
+    /// Box of a body, from the box of its shape, or of both ends of its motion, and its largest
+    /// thickness.
+    pub(crate) fn of(self, shape: Aabb, thickness: f64) -> Aabb {
+        let by = self.counts_thickness * thickness;
+        self.grow_by
+            .map_or(shape, |distance| shape.grown(grown(distance, by)))
     }
+}
+
+/// Sum of two distances, rounded up; at most the largest number.
+fn grown(distance: f32, by: f64) -> f32 {
+    if by == 0.0 {
+        return distance;
+    }
+    let nearest = ((f64::from(distance) + by) as f32).min(f32::MAX);
+    nearest.next_up().min(f32::MAX)
 }
 
 /// Distance in time to which a kind with motions looks along them.
@@ -230,6 +254,7 @@ pub(crate) struct LeafTest<'q, S> {
     pub(crate) ids: CallerIds<'q>,
     /// Elements and their boxes, for kinds that test runs.
     pub(crate) elements: [Option<NearElements<'q>>; 2],
+    pub(crate) thickness: Thicknesses<'q>,
     /// Positions in the rest shape, if both bodies are one that has a rest shape and the kind heeds
     /// it.
     pub(crate) rest: Option<&'q Points<S>>,

@@ -50,4 +50,6 @@ pub(crate) use door::{
 pub(crate) use hits::*;
 pub(crate) use impacts::{Earliest, First, Impacts, LIMIT};
 pub(crate) use intersections::Intersections;
-pub(crate) use near::{Groups, NearBoxes, NearElements, Removed, Which};
+pub(crate) use near::{
+    Groups, NearBoxes, NearElements, Removed, Thickness, Thicknesses, Which, most,
+};

@@ -11,7 +11,7 @@ use super::context::Context;
 use crate::held::held;
 use crate::ids::BlockId;
 use crate::kernels::Coordinate;
-use crate::queries::{Batch, LeafTest, LeafWork};
+use crate::queries::{Batch, LeafTest, LeafWork, Thicknesses};
 use crate::tree::{LeafPair, Leaves, Neighbours};
 use std::ops::Range;
 
@@ -191,6 +191,10 @@ fn leaf_test<'q, S: Coordinate>(context: &Context<'q, S>) -> LeafTest<'q, S> {
         motions: [a.motion, b.motion],
         ids: context.pair.caller_ids(),
         elements: [a.elements, b.elements],
+        thickness: Thicknesses {
+            sides: [a.thickness, b.thickness],
+            counts: context.needs.counts_thickness,
+        },
         rest: a
             .rest
             .filter(|_| context.needs.heeds_rest && context.pair.is_one_body()),

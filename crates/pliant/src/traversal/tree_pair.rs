@@ -4,7 +4,7 @@ use crate::geometry::Points;
 use crate::ids::{BodyId, NodeId};
 use crate::kernels::Coordinate;
 use crate::mesh::Order;
-use crate::queries::{CallerIds, NearElements, Needs, OwnEdges, Removed};
+use crate::queries::{CallerIds, NearElements, Needs, OwnEdges, Removed, Thickness};
 use crate::tree::{BoxSet, BoxedTree, Source, Tree};
 use crate::update::Refitted;
 
@@ -19,6 +19,8 @@ pub(crate) struct Read<'t, S> {
     pub(crate) motion: Option<&'t Points<S>>,
     /// Near elements, for kinds that are shown runs of triangles.
     pub(crate) elements: Option<NearElements<'t>>,
+    /// Thickness of the body's vertices, if it has any.
+    pub(crate) thickness: Option<&'t Thickness>,
     /// Positions in the rest shape, if the body has one.
     pub(crate) rest: Option<&'t Points<S>>,
     /// Triangles that were removed from the mesh and are still in the tree, if there are any.

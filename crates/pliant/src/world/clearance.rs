@@ -11,6 +11,7 @@ use super::handle::World;
 use super::scalar::Scalar;
 use crate::error::Error;
 use crate::ids::BodyId;
+use crate::queries::most;
 use crate::selection::Selection;
 use crate::threads::Question;
 use std::collections::BTreeMap;
@@ -19,10 +20,19 @@ use std::ops::ControlFlow;
 /// Factor by which a distance is rounded down: 1 - 2^-29.
 const ROUNDED: f64 = 1.0 - f64::from_bits((1023 - 29) << 52);
 
-/// Half a distance, rounded down.
-fn half_of(distance: f64) -> f64 {
-    // Among the smallest numbers a step is more than 2^-29.
-    (distance / 2.0 * ROUNDED).next_down().max(0.0)
+/// Half of what a distance is more than the thickness of two elements, rounded down.
+fn half_of(distance: f64, thickness: [f64; 2]) -> f64 {
+    let [a, b] = thickness;
+    // Among the smallest numbers a step is more than 2^-29. A difference is off by less than that
+    // of the distance.
+    ((distance * ROUNDED - a - b) / 2.0).next_down().max(0.0)
+}
+
+/// A body as its clearance is computed.
+struct Mesh {
+    triangles: Vec<[u32; 3]>,
+    edges: Vec<[u32; 2]>,
+    thickness: Vec<f64>,
 }
 
 /// Half the least distance so far, for each vertex of each body.
@@ -38,10 +48,12 @@ impl<S: Scalar> World<S> {
     /// of a vertex and a triangle, and of two edges, that have no vertex in common, as
     /// [`close_vertex_triangle_pairs`](Self::close_vertex_triangle_pairs) looks at them. It is
     /// rounded down by at most 1e-6 of itself and 1e-323, and is 0 where something touches.
+    /// [Thickness](Self::set_thickness) is taken off each distance; the number is then rounded down
+    /// by at most 2^-29 of the distance.
     ///
-    /// If every vertex moves less than that, in whatever direction, none of these pairs touches, on
-    /// the way or at the end. Pairs that filters or vertex groups keep apart do not count. Rest
-    /// shapes leave out none.
+    /// Let every vertex move less than that, in whatever direction. Then none of these pairs
+    /// touches, or comes nearer than it is thick, on the way or at the end. Pairs that filters or
+    /// vertex groups keep apart do not count. Rest shapes leave out none.
     ///
     /// Cost: both queries for close pairs within `cut_off`.
     ///
@@ -76,20 +88,31 @@ impl<S: Scalar> World<S> {
         question: Option<Question>,
     ) -> Result<Clearances, Error> {
         let mut clearances = Clearances::new();
-        let mut corners: BTreeMap<BodyId, (Vec<[u32; 3]>, Vec<[u32; 2]>)> = BTreeMap::new();
+        let mut meshes: BTreeMap<BodyId, Mesh> = BTreeMap::new();
         for body in self.bodies_of(of) {
             let vertices = self.vertex_count(body)?;
-            clearances.insert(body, vec![half_of(cut_off); vertices]);
-            let mesh = (self.triangles(body)?.to_vec(), self.edges(body)?.to_vec());
-            corners.insert(body, mesh);
-        }
-        let mut take = |body: BodyId, vertices: &[u32], distance: f64| {
-            let Some(of_body) = clearances.get_mut(&body) else {
-                return;
+            clearances.insert(body, vec![half_of(cut_off, [0.0; 2]); vertices]);
+            let mesh = Mesh {
+                triangles: self.triangles(body)?.to_vec(),
+                edges: self.edges(body)?.to_vec(),
+                thickness: self.thickness(body)?,
             };
-            for &vertex in vertices {
-                let least = &mut of_body[vertex as usize];
-                *least = least.min(half_of(distance));
+            meshes.insert(body, mesh);
+        }
+        let mut take = |elements: [(BodyId, &[u32]); 2], distance: f64| {
+            let thickness = elements.map(|(body, vertices)| {
+                let of_body = meshes.get(&body).map(|mesh| &mesh.thickness);
+                of_body.map_or(0.0, |all| most(vertices.iter().map(|&it| all[it as usize])))
+            });
+            let half = half_of(distance, thickness);
+            for (body, vertices) in elements {
+                let Some(of_body) = clearances.get_mut(&body) else {
+                    continue;
+                };
+                for &vertex in vertices {
+                    let least = &mut of_body[vertex as usize];
+                    *least = least.min(half);
+                }
             }
         };
 
@@ -98,10 +121,10 @@ impl<S: Scalar> World<S> {
         let _ = close.visit_some(|close| {
             for close in close {
                 let pair = close.pair;
-                take(pair.vertex_body, &[pair.vertex], close.distance);
-                if let Some((triangles, _)) = corners.get(&pair.triangle_body) {
-                    let corners = &triangles[pair.triangle as usize];
-                    take(pair.triangle_body, corners, close.distance);
+                if let Some(mesh) = meshes.get(&pair.triangle_body) {
+                    let corners = &mesh.triangles[pair.triangle as usize];
+                    let vertex = (pair.vertex_body, &[pair.vertex][..]);
+                    take([vertex, (pair.triangle_body, corners)], close.distance);
                 }
             }
             ControlFlow::<()>::Continue(())
@@ -111,10 +134,10 @@ impl<S: Scalar> World<S> {
         let _ = close.visit_some(|close| {
             for close in close {
                 let pair = close.pair;
-                for (body, edge) in [(pair.body_a, pair.edge_a), (pair.body_b, pair.edge_b)] {
-                    if let Some((_, edges)) = corners.get(&body) {
-                        take(body, &edges[edge as usize], close.distance);
-                    }
+                let ends = [(pair.body_a, pair.edge_a), (pair.body_b, pair.edge_b)]
+                    .map(|(body, edge)| Some((body, &meshes.get(&body)?.edges[edge as usize][..])));
+                if let [Some(a), Some(b)] = ends {
+                    take([a, b], close.distance);
                 }
             }
             ControlFlow::<()>::Continue(())

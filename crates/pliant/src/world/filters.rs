@@ -1,5 +1,5 @@
-//! Filters, environments, ignored pairs, vertex groups, rest shapes and loose boxes: who may meet
-//! whom.
+//! Filters, environments, ignored pairs, vertex groups, rest shapes, thickness and loose boxes: who
+//! may meet whom, and from how far.
 
 use super::handle::World;
 use super::scalar::Scalar;
@@ -186,6 +186,70 @@ impl<S: Scalar> World<S> {
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn rest_positions(&self, body: BodyId) -> Result<Option<&[[S; 3]]>, Error> {
         Ok(self.state().body(body)?.rest())
+    }
+
+    /// Makes a body thick: every vertex is a ball of this radius, in the unit of the positions.
+    ///
+    /// An element is as thick as the thickest of its vertices. Two elements of thickness s and t
+    /// then count as close if they are at most `distance + s + t` apart, in real arithmetic. Their
+    /// boxes are candidates with a gap of at most `2 radius + s + t`. Steps free of contact keep
+    /// `min_distance + s + t`, and clearance is what is left of distances. Distances that are
+    /// measured stay what they are. Intersections and impacts are of bodies without thickness.
+    ///
+    /// It stays with the body. A vertex that an [`Edit`](crate::Edit) splits from another is as
+    /// thick as that. Other new vertices, and all of another mesh, are as thick as the thickest.
+    ///
+    /// A thick cloth is nearly always close to itself: see
+    /// [`set_rest_positions`](Self::set_rest_positions).
+    ///
+    /// ```
+    /// # use pliant::{Selection, World};
+    /// let mut world = World::<f64>::new();
+    /// let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    /// let shirt = world.add(&[[0, 1, 2]], &corners)?;
+    /// let coat = world.add(&[[0, 1, 2]], &corners.map(|[x, y, z]| [x, y, z + 0.5]))?;
+    /// world.set_thickness(shirt, 0.125)?;
+    /// world.set_thickness(coat, 0.375)?;
+    /// assert_eq!(world.close_triangle_pairs(Selection::World, 0.0).all()?.len(), 1);
+    /// world.set_vertex_thickness(coat, &[0.3, 0.3, 0.37])?;
+    /// assert!(world.close_triangle_pairs(Selection::World, 0.0).all()?.is_empty());
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// Cost: O(n).
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    /// [`BadThickness`](crate::ErrorKind::BadThickness) if it is negative, infinite or NaN.
+    pub fn set_thickness(&mut self, body: BodyId, thickness: f64) -> Result<(), Error> {
+        let vertices = self.vertex_count(body)?;
+        self.set_vertex_thickness(body, &vec![thickness; vertices])
+    }
+
+    /// Gives every vertex of a body a thickness of its own, shape (n,): see
+    /// [`set_thickness`](Self::set_thickness).
+    ///
+    /// Cost: O(n).
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`set_thickness`](Self::set_thickness), and
+    /// [`WrongLength`](crate::ErrorKind::WrongLength).
+    pub fn set_vertex_thickness(&mut self, body: BodyId, thickness: &[f64]) -> Result<(), Error> {
+        let found = self.state_mut().common.bodies.get_mut(body)?;
+        found.set_thickness(thickness).map_err(about(body))?;
+        self.state_mut().common.body_pairs.forget();
+        Ok(())
+    }
+
+    /// Thickness of every vertex of a body, shape (n,). Cost: O(n).
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn thickness(&self, body: BodyId) -> Result<Vec<f64>, Error> {
+        Ok(self.state().body(body)?.thickness())
     }
 
     /// Gives a body a loose box, lower and upper corner, that holds it in every pose to come;

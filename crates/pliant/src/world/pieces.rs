@@ -57,10 +57,10 @@ impl<S: Scalar> World<S> {
     /// several the first. Returns the new bodies in the order of their first triangles. If all is
     /// one component there are none, and nothing has changed.
     ///
-    /// Pieces inherit filter, environment, loose box, vertex groups, rest shape, and whom the body
-    /// [ignores](Self::ignore). If it ignores itself, the pieces ignore each other and it. So
-    /// [`Everything`](crate::Selection::Everything) finds what it found. A motion of the body ends,
-    /// as by [`apply`](Self::apply). Vertices that no triangle uses stay with it.
+    /// Pieces inherit filter, environment, loose box, vertex groups, rest shape, thickness, and
+    /// whom the body [ignores](Self::ignore). If it ignores itself, the pieces ignore each other
+    /// and it. So [`Everything`](crate::Selection::Everything) finds what it found. A motion of the
+    /// body ends, as by [`apply`](Self::apply). Vertices that no triangle uses stay with it.
     ///
     /// ```
     /// use pliant::World;
@@ -90,8 +90,8 @@ impl<S: Scalar> World<S> {
     /// `b`.
     ///
     /// Returns the numbers that they have now. Body `a` keeps its numbers, its filter and whom it
-    /// [ignores](Self::ignore); vertices keep their groups. If either has a rest shape, it has one,
-    /// in which the other rests as it is. If both had a loose box, it then has
+    /// [ignores](Self::ignore); vertices keep their groups and thickness. If either has a rest
+    /// shape, it has one, in which the other rests as it is. If both had a loose box, it then has
     /// one around both; else it has none. Motions of either end, as by [`apply`](Self::apply).
     /// Nothing is welded: see [`weld`](Self::weld).
     ///
@@ -200,6 +200,7 @@ impl<S: Scalar> World<S> {
         let positions = self.positions(body)?;
         let groups = self.vertex_groups(body)?;
         let rest = self.rest_positions(body)?.map(<[_]>::to_vec);
+        let thickness = self.thickness(body)?;
         let mut edit = self.edit(body)?;
         let mut number_of = vec![u32::MAX; positions.len()];
         for piece in pieces {
@@ -218,6 +219,8 @@ impl<S: Scalar> World<S> {
             piece.body = self.add(&corners, &of_piece.collect::<Vec<_>>())?;
             let of_piece = piece.vertices.iter().map(|&it| groups[it as usize]);
             self.set_vertex_groups(piece.body, &of_piece.collect::<Vec<_>>())?;
+            let of_piece = piece.vertices.iter().map(|&it| thickness[it as usize]);
+            self.set_vertex_thickness(piece.body, &of_piece.collect::<Vec<_>>())?;
             if let Some(rest) = &rest {
                 let of_piece = piece.vertices.iter().map(|&it| rest[it as usize]);
                 self.set_rest_positions(piece.body, Some(&of_piece.collect::<Vec<_>>()))?;
@@ -260,6 +263,8 @@ impl<S: Scalar> World<S> {
                 Some(rest)
             }
         };
+        let mut thickness = self.thickness(a)?;
+        thickness.extend(kept(&self.thickness(b)?, &are_vertices));
         let have_groups = groups.iter().chain(&of_b).any(|&group| group != 0);
 
         self.set_loose_box(a, None)?;
@@ -274,6 +279,7 @@ impl<S: Scalar> World<S> {
             groups.extend(kept(&of_b, &are_vertices));
             self.set_vertex_groups(a, &groups)?;
         }
+        self.set_vertex_thickness(a, &thickness)?;
         if rest.is_some() {
             self.set_rest_positions(a, rest.as_deref())?;
         }

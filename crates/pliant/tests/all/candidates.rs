@@ -9,6 +9,7 @@ use pliant::{
     BodyId, CloseEdgeEdge, CloseVertexTriangle, ClosestFeatures, EdgeEdge, ErrorKind, Options,
     Pair, Scalar, Selection, VertexTriangle, World,
 };
+use pliant_exact::Length;
 use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -22,6 +23,7 @@ struct Known<S> {
     end: Option<Vec<[S; 3]>>,
     groups: Option<Vec<u32>>,
     rest: Option<Vec<[S; 3]>>,
+    thickness: Option<Vec<f64>>,
 }
 
 impl<S> Known<S> {
@@ -32,6 +34,7 @@ impl<S> Known<S> {
             end: self.end.as_deref(),
             groups: self.groups.as_deref(),
             rest: self.rest.as_deref(),
+            thickness: self.thickness.as_deref(),
         }
     }
 }
@@ -163,6 +166,10 @@ fn ask<S: Scalar>(
         Close(distance) => {
             let vertex_triangle = asked!(close_vertex_triangle_pairs, distance, |hit| hit.pair);
             let edge_edge = asked!(close_edge_edge_pairs, distance, |hit| hit.pair);
+            let thick = known
+                .iter()
+                .flat_map(|body| body.thickness.iter().flatten());
+            let distance = distance + 2.0 * thick.copied().fold(0.0, f64::max);
             for hit in &vertex_triangle {
                 check_vertex_triangle(known, hit, distance);
             }
@@ -338,19 +345,39 @@ fn check<S: Scalar>(
 
 /// Asks for the close triangles of a body with itself, and compares with the reference.
 fn check_triangles<S: Scalar>(world: &mut World<S>, body: &Known<S>, distance: f64, when: &str) {
-    let at = |positions: &[[S; 3]]| {
-        let pairs = reference::self_close_triangle_pairs(&body.triangles, positions, distance);
-        pairs.unwrap()
+    let thick = |triangle: [u32; 3]| {
+        let of = |vertex: u32| {
+            body.thickness
+                .as_ref()
+                .map_or(0.0, |all| all[vertex as usize])
+        };
+        triangle.map(of).into_iter().fold(0.0, f64::max)
     };
-    let mut expected = at(&body.positions);
-    if let Some(rest) = &body.rest {
-        let at_rest = at(rest);
-        expected.retain(|pair| at_rest.binary_search(pair).is_err());
-    }
+    // Pairs that are surely close, and pairs that possibly are.
+    let at = |positions: &[[S; 3]], which: usize| -> BTreeSet<[u32; 2]> {
+        let mut close = BTreeSet::new();
+        for (i, &a) in (0..).zip(&body.triangles) {
+            for (j, &b) in (0..).zip(&body.triangles).skip(i as usize + 1) {
+                let length = Length::sum([distance, thick(a), thick(b)]).bounds()[which];
+                let pair = [a, b];
+                let found = reference::self_close_triangle_pairs(&pair, positions, length);
+                close.extend(found.unwrap().iter().map(|_| [i, j]));
+            }
+        }
+        close
+    };
     let of = Selection::Within(body.id);
     let found = world.close_triangle_pairs(of, distance).all().unwrap();
-    let found: Vec<_> = found.iter().map(|close| close.pair.triangles()).collect();
-    assert_eq!(found, expected, "{when}");
+    let found: BTreeSet<_> = found.iter().map(|close| close.pair.triangles()).collect();
+    let rest = [0, 1].map(|which| {
+        let rest = body.rest.as_deref();
+        rest.map_or_else(BTreeSet::new, |rest| at(rest, which))
+    });
+    let [sure, possible] = [0, 1].map(|which| &at(&body.positions, which) - &rest[1 - which]);
+    assert!(
+        sure.is_subset(&found) && found.is_subset(&possible),
+        "{when}"
+    );
 }
 
 /// Meshes with adjacency of every kind.
@@ -432,7 +459,7 @@ fn lives<S: Scalar>(
         let mut apart: Vec<[BodyId; 2]> = Vec::new();
         for step in 0..14 {
             let some = random.below(known.len().max(1) as u32) as usize;
-            match random.below(13) {
+            match random.below(14) {
                 _ if known.is_empty() => {}
                 0..=3 => {
                     let body = &mut known[some];
@@ -494,6 +521,11 @@ fn lives<S: Scalar>(
                     world.set_mesh(body.id, &triangles, &positions).unwrap();
                     let groups = body.groups.take().filter(|_| !is_other);
                     let rest = body.rest.take().filter(|_| !is_other);
+                    let mut thickness = body.thickness.take();
+                    if let Some(all) = thickness.as_mut().filter(|_| is_other) {
+                        // Other vertices are as thick as the thickest was.
+                        *all = vec![all.iter().copied().fold(0.0, f64::max); vertices];
+                    }
                     let id = body.id;
                     *body = Known {
                         id,
@@ -502,6 +534,7 @@ fn lives<S: Scalar>(
                         end: None,
                         groups,
                         rest,
+                        thickness,
                     };
                 }
                 9 => {
@@ -511,6 +544,26 @@ fn lives<S: Scalar>(
                     ];
                     world.ignore(pair[0], pair[1]).unwrap();
                     apart.push([pair[0].min(pair[1]), pair[0].max(pair[1])]);
+                }
+                12 => {
+                    // All are as thick, or each is for itself.
+                    let body = &mut known[some];
+                    let mut thick = |_| match random.below(4) {
+                        0 => 0.0,
+                        1 => unit / 2.0,
+                        2 => f64::from(random.unit()) * unit,
+                        _ => [5e-324, 1e-300, 3.0 * unit, 0.1 * unit][random.below(4) as usize],
+                    };
+                    let one = thick(());
+                    let mut all = vec![one; body.positions.len()];
+                    if thick(()) > 0.0 {
+                        world.set_thickness(body.id, one).unwrap();
+                    } else {
+                        all.iter_mut().for_each(|it| *it = thick(()));
+                        world.set_vertex_thickness(body.id, &all).unwrap();
+                    }
+                    assert_eq!(world.thickness(body.id).unwrap(), all);
+                    body.thickness = Some(all);
                 }
                 11 => {
                     // Some vertices rest where they are, others elsewhere.
@@ -545,6 +598,12 @@ fn lives<S: Scalar>(
                     ));
                     assert!(world.set_motion(body.id, &end[1..]).is_err());
                     assert!(world.set_vertex_groups(body.id, &[1]).is_err() || end.len() == 1);
+                    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+                        let refused = world.set_thickness(body.id, bad).unwrap_err();
+                        let kind = refused.kind;
+                        assert!(matches!(kind, ErrorKind::BadThickness { vertex: 0, .. }));
+                    }
+                    assert!(world.set_vertex_thickness(body.id, &[0.0]).is_err() || end.len() == 1);
                     for rest in [&end[..], &end[1..]] {
                         assert!(world.set_rest_positions(body.id, Some(rest)).is_err());
                     }
@@ -570,7 +629,7 @@ fn lives<S: Scalar>(
                 let (triangles, vertices) = mesh(random);
                 let positions = shape(random, vertices);
                 let id = world.add(&triangles, &positions).unwrap();
-                let (end, groups, rest) = (None, None, None);
+                let (end, groups, rest, thickness) = (None, None, None, None);
                 known.push(Known {
                     id,
                     triangles,
@@ -578,6 +637,7 @@ fn lives<S: Scalar>(
                     end,
                     groups,
                     rest,
+                    thickness,
                 });
             }
             // Half of a multiple of the unit is a tie on the lattice. The extreme margins reach
@@ -680,6 +740,7 @@ fn everything_is_close_within_the_largest_distances() {
                     end: None,
                     groups: None,
                     rest: None,
+                    thickness: None,
                 }
             })
             .collect();

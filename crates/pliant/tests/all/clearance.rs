@@ -145,6 +145,45 @@ fn nothing_touches_below_it_and_something_can_above() {
     }
 }
 
+/// Thickness is taken off distances: nothing comes nearer than it is thick.
+#[test]
+fn clearance_is_what_is_left_of_thickness() {
+    let (mut world, triangles, bodies) = sheets(&mut Lcg(11));
+    let [(a, _), (b, _)] = [&bodies[0], &bodies[1]];
+    let of = Selection::Between(*a, *b);
+    let thick = [0.0625, 0.03125];
+    let plain = world.clearance(of, 2.0).unwrap();
+    world.set_thickness(*a, thick[0]).unwrap();
+    world.set_thickness(*b, thick[1]).unwrap();
+    let found = world.clearance(of, 2.0).unwrap();
+    let mut left = [0; 2];
+    for body in [a, b] {
+        for (found, plain) in found[body].iter().zip(&plain[body]) {
+            let expected = (plain - (thick[0] + thick[1]) / 2.0).max(0.0);
+            assert!(
+                (found - expected).abs() <= 1e-6 * plain,
+                "{found} {expected}"
+            );
+            left[usize::from(*found > 0.0)] += 1;
+        }
+    }
+    assert!(left.iter().all(|&count| count > 5), "{left:?}");
+
+    // One thick vertex makes its own elements thick, and no others.
+    let mut of_vertices = vec![0.0; 36];
+    of_vertices[14] = 0.0625;
+    world.set_thickness(*a, 0.0).unwrap();
+    world.set_vertex_thickness(*b, &of_vertices).unwrap();
+    let found = world.clearance(of, 2.0).unwrap();
+    for (vertex, (found, plain)) in (0..).zip(found[b].iter().zip(&plain[b])) {
+        let is_beside = triangles
+            .iter()
+            .any(|it| it.contains(&14) && it.contains(&vertex));
+        assert!(found <= plain && (is_beside || found == plain), "{vertex}");
+    }
+    assert!(found[b][14] < plain[b][14]);
+}
+
 #[test]
 fn what_is_refused_is_what_queries_refuse() {
     let (mut world, _, bodies) = sheets(&mut Lcg(1));

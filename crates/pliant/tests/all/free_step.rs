@@ -268,3 +268,59 @@ fn what_is_refused_and_what_is_interrupted() {
     }
     assert!(looks > 3, "{looks}");
 }
+
+/// A step keeps the distance and the thickness of both, as if all of it were the distance.
+#[test]
+fn steps_keep_thickness_as_a_distance() {
+    let random = &mut Lcg(23);
+    let mut kept = [0; 2];
+    for round in 0..40 {
+        let (triangles, flat) = sheet(4);
+        let rough = |random: &mut Lcg, height: f64| -> Vec<[f64; 3]> {
+            let place = |[x, y, _]: &[f32; 3], z: f64| [f64::from(*x), f64::from(*y), height + z];
+            let all = flat.iter();
+            all.map(|at| place(at, 0.1 * f64::from(random.unit())))
+                .collect()
+        };
+        let heights = [0.0, 0.5, 1.0];
+        let shapes = heights.map(|height| rough(random, height));
+        let ends = heights.map(|height| rough(random, 0.5 + (height - 0.5) * 0.2));
+        let mut world = World::<f64>::new();
+        let bodies = [0, 1, 2].map(|body| world.add(&triangles, &shapes[body]).unwrap());
+        for (body, end) in bodies.iter().zip(&ends) {
+            world.set_motion(*body, end).unwrap();
+        }
+        let [a, b, c] = bodies;
+        let distance = [0.0, 0.0625][round % 2];
+        let thick = [0.03125, 0.125, 0.0];
+        let mut plain = world.clone();
+        for (body, thick) in bodies.into_iter().zip(thick) {
+            world.set_thickness(body, thick).unwrap();
+        }
+        for (of, both) in [
+            (Selection::Between(a, b), thick[0] + thick[1]),
+            (Selection::Between(b, c), thick[1]),
+            (Selection::Between(a, c), thick[0]),
+        ] {
+            let step = world.free_step(of, distance).unwrap();
+            assert_eq!(
+                step,
+                plain.free_step(of, distance + both).unwrap(),
+                "{of:?}"
+            );
+            kept[usize::from(step.t < 1.0)] += 1;
+        }
+        // Elements without distance and thickness are kept from contact, beside others.
+        world.set_thickness(a, 0.0).unwrap();
+        let of_two = [(a, b), (b, c), (a, c)].map(|(a, b)| {
+            let of = Selection::Between(a, b);
+            world.collision_free_step(of, distance).unwrap()
+        });
+        let least = of_two.into_iter().fold(1.0, f64::min);
+        let all = world
+            .collision_free_step(Selection::World, distance)
+            .unwrap();
+        assert!((all - least).abs() <= 1e-9, "{of_two:?} {all}");
+    }
+    assert!(kept[1] > 50, "{kept:?}");
+}

@@ -83,6 +83,8 @@ impl<S: Coordinate> Body<S> {
             new.shape.set_version(self.shape.version() + 1);
             std::mem::swap(&mut new.filter, &mut self.filter);
             new.filter.forget_vertices();
+            std::mem::swap(&mut new.thickness, &mut self.thickness);
+            new.thickness.spread(positions.len());
             *self = new;
             return Ok(());
         }
@@ -96,6 +98,7 @@ impl<S: Coordinate> Body<S> {
             emptied: Vec::new(),
         };
         self.filter.forget_vertices();
+        self.thickness.spread(vertices);
         self.mesh.fill();
         self.make(&outcome, options);
         self.set_positions(positions, (instructions, executor))
@@ -112,6 +115,7 @@ impl<S: Coordinate> Body<S> {
         self.motion.forget();
         self.mesh.change(outcome);
         self.filter.follow(outcome);
+        self.thickness.follow(outcome);
         self.rebuild.note_edit(&outcome.changed, are_fewer);
         let new: Vec<[S; 3]> = new.iter().map(|&(_, position)| position).collect();
         self.shape.push(&new);

@@ -4,11 +4,12 @@ use super::super::filter::Filter;
 use super::super::mesh::BodyMesh;
 use super::super::motion::Motion;
 use super::super::shape::BodyShape;
+use super::super::thickness::BodyThickness;
 use crate::geometry::{Origin, Points};
 use crate::ids::BodyId;
 use crate::kernels::Coordinate;
 use crate::mesh::{Elements, Order};
-use crate::queries::{Groups, NearBoxes, NearElements, Needs, OwnEdges, Removed};
+use crate::queries::{Groups, NearBoxes, NearElements, Needs, OwnEdges, Removed, Thickness};
 use crate::traversal::Read;
 use crate::tree::{Source, Tree};
 
@@ -22,17 +23,19 @@ pub(super) struct Queried<'b, S> {
     elements: Option<&'b Elements>,
     groups: Option<&'b Groups>,
     rest: Option<&'b Points<S>>,
+    thickness: Option<&'b Thickness>,
     removed: Option<Removed<'b>>,
 }
 
 impl<'b, S: Coordinate> Queried<'b, S> {
     #[inline]
     pub(super) fn of(
-        (mesh, shape, motion, filter): (
+        (mesh, shape, motion, filter, thickness): (
             &'b BodyMesh<S>,
             &'b BodyShape<S>,
             &'b Motion<S>,
             &'b Filter<S>,
+            &'b BodyThickness,
         ),
         needs: &Needs,
         origin: Origin,
@@ -44,11 +47,16 @@ impl<'b, S: Coordinate> Queried<'b, S> {
             body: mesh.body(),
             order,
             mesh,
-            source: Source::new(shape.view(order, origin), end, needs.grows_by),
+            source: Source::new(
+                shape.view(order, origin),
+                end,
+                needs.grows(thickness.most()),
+            ),
             motion: way.map(|(way, reach)| way.going(reach)),
             elements: mesh.known_elements().filter(|_| !needs.triangles()),
             groups: filter.known_groups(),
             rest: filter.known_rest(),
+            thickness: thickness.known(),
             removed: mesh.removed(),
         }
     }
@@ -71,6 +79,7 @@ impl<'b, S: Coordinate> Queried<'b, S> {
                 removed: self.removed,
             }),
             rest: self.rest,
+            thickness: self.thickness,
             removed: self.removed,
         }
     }

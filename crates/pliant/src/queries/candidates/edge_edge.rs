@@ -36,7 +36,7 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
         let [ends_a, ends_b] = [of_a.edges.ends(), of_b.edges.ends()];
         let limits = self
             .margin
-            .limits::<S>(larger(runs_a.most(), runs_b.most()));
+            .limits::<S>(leaves, larger(runs_a.most(), runs_b.most()));
         let groups = of_a.groups.zip(of_b.groups);
         let removed = [of_a, of_b].map(|side| side.removed.map(|_| side.edges));
         let is_any_left_out = groups.is_some() || removed.iter().any(Option::is_some);

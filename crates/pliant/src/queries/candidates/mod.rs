@@ -93,6 +93,8 @@ pub(crate) struct Margin {
     /// Distance by which boxes of nodes are grown: at least half of `gap`, or so much that any two
     /// boxes overlap.
     grown_by: f32,
+    /// By how much thickness counts.
+    counts_thickness: f64,
 }
 
 impl Margin {
@@ -107,6 +109,15 @@ impl Margin {
         Self {
             gap: 2.0 * radius,
             grown_by,
+            counts_thickness: 1.0,
+        }
+    }
+
+    /// The margin, with a factor on thickness, which is 0 if that does not count.
+    pub(crate) fn counting_thickness(self, by: f64) -> Self {
+        Self {
+            counts_thickness: by,
+            ..self
         }
     }
 
@@ -121,14 +132,15 @@ impl Margin {
             box_set: OF_MOTIONS,
             leaves: Shown::Runs(which),
             grows_by: Some(self.grown_by),
+            counts_thickness: self.counts_thickness,
             reach: Some(Reach::End),
             culls_by_capsules: false,
             heeds_rest: false,
         }
     }
 
-    fn limits<S: Real>(self, most: f32) -> Limits {
-        Limits::new::<S>(self.gap, f64::from(most))
+    fn limits<S: Real>(self, leaves: &LeafTest<S>, most: f32) -> Limits {
+        Limits::new::<S>(leaves.thickness.bounds(self.gap), f64::from(most))
     }
 
     /// Whether the boxes of two elements, one of either side, are within the margin: exactly.
@@ -140,7 +152,9 @@ impl Margin {
         a: &[TreeVertex],
         b: &[TreeVertex],
     ) -> bool {
-        let [a, b] = [(sides[0], a), (sides[1], b)].map(|(side, corners)| {
+        let elements = [(sides[0], a), (sides[1], b)];
+        let near = leaves.thickness.length(self.gap, elements);
+        let [a, b] = elements.map(|(side, corners)| {
             let mut bounds = Bounds::EMPTY;
             for &corner in corners {
                 let now = leaves.shapes[side].positions;
@@ -151,6 +165,6 @@ impl Margin {
             }
             bounds
         });
-        a.are_within(&b, self.gap)
+        a.are_within(&b, near)
     }
 }

@@ -83,7 +83,7 @@ impl<S: Coordinate> VertexTriangleCandidates<S> {
         };
         let limits = self
             .margin
-            .limits::<S>(larger(vertices.most(), triangles.most()));
+            .limits::<S>(leaves, larger(vertices.most(), triangles.most()));
         let corners = leaves.shapes[1 - side].triangles;
         let groups = of_vertices.groups.zip(of_triangles.groups);
         let removed = (of_vertices.removed, of_triangles.removed);

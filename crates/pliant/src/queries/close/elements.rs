@@ -4,12 +4,13 @@ use super::closest::{exactly, half};
 use super::measured::{ElementPair, Measurable, measure_all};
 use crate::geometry::{Points, Real};
 use crate::ids::TreeVertex;
-use crate::kernels::closest::{FourCorners, decide_eight, of_elements};
+use crate::kernels::closest::{FourCorners, decide_eight, of_elements, rounded_outward};
 use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
 use crate::queries::{
-    Batch, CallerIds, EdgeEdgeCandidates, FoundBy, Kind, LeafTest, Margin, Needs,
+    Batch, CallerIds, EdgeEdgeCandidates, FoundBy, Kind, LeafTest, Margin, Needs, Thicknesses,
     VertexTriangleCandidates,
 };
+use pliant_exact::Length;
 use pliant_exact::distance::are_within_distance;
 
 /// Kind of query: candidates of the kind `K` that are at most `distance` apart.
@@ -65,6 +66,21 @@ pub(crate) trait ElementCandidates:
     }
 }
 
+/// The distance at which two elements are near, by their corners, from that of elements without
+/// thickness.
+#[inline]
+pub(in crate::queries) fn length(
+    thickness: Thicknesses,
+    distance: f64,
+    are_edges: bool,
+    corners: [(usize, TreeVertex); 4],
+) -> Length {
+    let [(first, _), .., (second, _)] = corners;
+    let vertices = corners.map(|(_, vertex)| vertex);
+    let (a, b) = vertices.split_at(if are_edges { 2 } else { 1 });
+    thickness.length(distance, [(first, a), (second, b)])
+}
+
 /// Positions of four corners, each with its side, by the positions of both bodies.
 #[inline(always)]
 pub(in crate::queries) fn corners_at<S>(
@@ -75,19 +91,20 @@ pub(in crate::queries) fn corners_at<S>(
     [at(a), at(b), at(c), at(d)]
 }
 
-/// Whether a pair that single precision left undecided is at most `distance` apart. Counts exact
+/// Whether a pair that single precision left undecided is at most this far apart. Counts exact
 /// decisions.
 #[cold]
 fn is_close<S: Real>(
     instructions: Instructions,
     are_edges: bool,
     pair: &FourCorners<S>,
-    distance: f64,
+    distance: Length,
     exact_decisions: &mut u64,
 ) -> bool {
     let found = dispatch!(instructions, i => of_elements(i, are_edges, &[*pair; 4]));
-    if (found.most[0] <= distance) | (found.least[0] > distance) {
-        return found.most[0] <= distance;
+    let [least, most] = distance.bounds();
+    if (found.most[0] <= least) | (found.least[0] > most) {
+        return found.most[0] <= least;
     }
     *exact_decisions += 1;
     are_within_distance(&exactly(are_edges, pair), distance)
@@ -157,7 +174,17 @@ impl<K: ElementCandidates> Close<K> {
         exact: &mut u64,
     ) -> usize {
         let are_edges = <K::Hit as ElementPair>::ARE_EDGES;
+        let is_thick = leaves.thickness.are_any();
         let corners = |hit| Some(corners_at(K::vertices(leaves, hit)?, positions));
+        // The distance at which a pair is close.
+        let distance = |hit| match K::vertices(leaves, hit) {
+            Some(vertices) if is_thick => {
+                length(leaves.thickness, self.distance, are_edges, vertices)
+            }
+            _ => self.distance.into(),
+        };
+        let [below, above] = rounded_outward([self.distance; 2]);
+        let mut limits = [[below; 8], [above; 8]];
         let mut kept = 0;
         for start in (0..candidates.len()).step_by(8) {
             let count = (candidates.len() - start).min(8);
@@ -170,7 +197,13 @@ impl<K: ElementCandidates> Close<K> {
             for lane in 1..8 {
                 pairs[lane] = corners(some[lane]).unwrap_or(first);
             }
-            let [mut close, far] = decide_eight(i, are_edges, &pairs, self.distance);
+            if is_thick {
+                for (lane, &hit) in some.iter().enumerate() {
+                    let [below, above] = rounded_outward(distance(hit).bounds());
+                    (limits[0][lane], limits[1][lane]) = (below, above);
+                }
+            }
+            let [mut close, far] = decide_eight(i, are_edges, &pairs, &limits);
             // Undecided pairs, of which there are hardly ever any.
             let mut rest = !(close | far) & ((1 << count) - 1);
             while rest != 0 {
@@ -179,7 +212,8 @@ impl<K: ElementCandidates> Close<K> {
                 }
                 let lane = rest.trailing_zeros();
                 let (how, pair) = (leaves.instructions, &pairs[lane as usize]);
-                close |= u64::from(is_close(how, are_edges, pair, self.distance, exact)) << lane;
+                let distance = distance(some[lane as usize]);
+                close |= u64::from(is_close(how, are_edges, pair, distance, exact)) << lane;
                 rest &= rest - 1;
             }
             for (lane, &candidate) in some[..count].iter().enumerate() {

@@ -13,8 +13,8 @@ mod measured;
 mod triangles;
 
 pub(super) use closest::primitives;
-pub(super) use elements::corners_at;
 pub(crate) use elements::{Close, ElementCandidates};
+pub(super) use elements::{corners_at, length};
 pub use hit::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, ClosestFeatures};
 pub(crate) use measured::{ElementPair, Measurable, measure_all};
 pub(crate) use triangles::{NearTriangles, NearestPair, close, closest_of_triangles, corners_of};

@@ -18,11 +18,11 @@ use crate::queries::{
     OF_GROWN_SHAPES, Pair,
 };
 use crate::threads::Interrupt;
-use pliant_exact::Triangle;
 use pliant_exact::barycentric;
 use pliant_exact::distance::{
     SomePoints, TrianglesClosest, are_triangles_within, closest_triangles,
 };
+use pliant_exact::{Length, Triangle};
 use std::marker::PhantomData;
 
 /// Kind of query: pairs of triangles that are at most a distance apart.
@@ -99,7 +99,7 @@ impl NearestPair {
         let measured = dispatch!(instructions, i => of_triangles(i, a, b));
         let is_nearer = match &self.nearest {
             Some((_, nearest)) => measured.least < nearest.distance,
-            None => is_within(&measured, corners, self.cut_off, exact_decisions),
+            None => is_within(&measured, corners, self.cut_off.into(), exact_decisions),
         };
         if is_nearer
             && let Some(found) = closest(measured, corners, interrupt)
@@ -243,6 +243,7 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
         Needs {
             box_set: OF_GROWN_SHAPES,
             grows_by: Some(self.margin.grown_by()),
+            counts_thickness: 1.0,
             heeds_rest: true,
             ..Needs::TRIANGLES
         }
@@ -259,14 +260,22 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
                 let corners = [corners_of(leaves.shapes[0], a), corners_of(leaves.shapes[1], b)];
                 let measured = of_triangles(i, &corners[0], &corners[1]);
                 let exact = &mut found.statistics.exact_decisions;
-                if !is_within(&measured, &corners, self.distance, exact) {
+                let distance = if leaves.thickness.are_any() {
+                    let [a, b] = [(0, a), (1, b)].map(|(side, triangle)| {
+                        (side, &leaves.shapes[side].triangles[triangle.index()][..])
+                    });
+                    leaves.thickness.length(self.distance, [a, b])
+                } else {
+                    self.distance.into()
+                };
+                if !is_within(&measured, &corners, distance, exact) {
                     continue;
                 }
                 if let Some(rest) = leaves.rest {
                     let at_rest = Shape { positions: rest, ..*leaves.shapes[0] };
                     let corners = [a, b].map(|triangle| corners_of(&at_rest, triangle));
                     let measured = of_triangles(i, &corners[0], &corners[1]);
-                    if is_within(&measured, &corners, self.distance, exact) {
+                    if is_within(&measured, &corners, distance, exact) {
                         continue;
                     }
                 }
@@ -303,11 +312,12 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
 fn is_within<S: Real>(
     measured: &TwoClosest,
     [a, b]: &[ThreeCorners<S>; 2],
-    distance: f64,
+    distance: Length,
     exact_decisions: &mut u64,
 ) -> bool {
-    if (measured.most <= distance) | (measured.least > distance) {
-        return measured.most <= distance;
+    let [least, most] = distance.bounds();
+    if (measured.most <= least) | (measured.least > most) {
+        return measured.most <= least;
     }
     *exact_decisions += 1;
     are_triangles_within(S::PRECISION, &exact(a), &exact(b), distance)
@@ -442,7 +452,7 @@ mod tests {
                 let instructions = Instructions::widest();
                 let [p, q] = &corners;
                 let measured = dispatch!(instructions, i => of_triangles(i, p, q));
-                let found = is_within(&measured, &corners, x, &mut exact);
+                let found = is_within(&measured, &corners, x.into(), &mut exact);
                 assert_eq!(found, expected, "{a:?} {b:?} {x}");
                 decided += exact;
                 quick += 1 - exact;

@@ -9,7 +9,7 @@
 mod earliest;
 mod hit;
 
-use super::close::{ElementCandidates, ElementPair, corners_at, primitives};
+use super::close::{ElementCandidates, ElementPair, corners_at, length, primitives};
 use super::{
     Batch, CallerIds, EdgeEdge, Found, FoundBy, Kind, LeafTest, Needs, Reach, VertexTriangle,
     shows_hits,
@@ -20,6 +20,7 @@ use crate::kernels::{Buffer, Simd, dispatch};
 use crate::statistics::Statistics;
 pub(crate) use earliest::{Earliest, First};
 pub use hit::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
+use pliant_exact::Length;
 use pliant_exact::distance::are_within_distance;
 use pliant_exact::motion::{Decided, Grid, Moving, distant_until, impact, starts_surely_within};
 
@@ -86,8 +87,8 @@ impl<K> Impacts<K> {
 
     /// Searches for coming as near as a distance instead of contact. [`approach`] finds it.
     ///
-    /// Candidates have half of [`LIMIT`] times the distance for a margin. Elements that are as near
-    /// at the start are tested for contact after it.
+    /// Candidates have half of [`LIMIT`] times the distance for a margin, and count thickness as
+    /// much. Elements that are as near at the start are tested for contact after it.
     pub(crate) fn or_near(self, distance: f64) -> Self {
         Self { distance, ..self }
     }
@@ -103,7 +104,7 @@ impl<K> Impacts<K> {
 
     /// Searches for any contact after the start of the motion, or at any time with a distance.
     pub(crate) fn any(self) -> Self {
-        let earliest = Earliest::new(self.distance == 0.0, 1.0);
+        let earliest = Earliest::new(true, 1.0);
         Self {
             is_any: true,
             ..self.earlier_than(earliest)
@@ -197,8 +198,13 @@ impl<K: ElementCandidates<Hit: MayMeet>> Impacts<K> {
             }
         }
         let until_at_least = (until as f32).next_up().min(1.0);
-        let limit = ((self.distance * LIMIT) as f32).next_up();
-        let limit = if self.distance == 0.0 { 0.0 } else { limit };
+        let [_, limit] = leaves.thickness.bounds(self.distance * LIMIT);
+        let limit = if limit == 0.0 {
+            0.0
+        } else {
+            (limit as f32).next_up()
+        };
+        let is_thick = leaves.thickness.are_any();
         let are_edges = <K::Hit as ElementPair>::ARE_EDGES;
         let are_apart = apart(i, are_edges, &corners, until_at_least, limit);
         let mut rest = !are_apart & (0xff >> (8 - candidates.len()));
@@ -210,8 +216,14 @@ impl<K: ElementCandidates<Hit: MayMeet>> Impacts<K> {
             }
             let moving = moving::<K>(&corners, lane);
             let pair = candidates[lane];
-            let (cell, decided) = if self.distance > 0.0 {
-                approach(&moving, self.distance, until)
+            let distance: Length = if is_thick {
+                let once = leaves.thickness.counted_once();
+                length(once, self.distance, are_edges, K::vertices(leaves, pair)?)
+            } else {
+                self.distance.into()
+            };
+            let (cell, decided) = if distance.bounds()[1] > 0.0 {
+                approach(&moving, distance, until)
             } else if self.is_first {
                 let hit = self.candidates.to_caller(&leaves.ids, pair);
                 let (is_taken, decided) = self.earliest.offer(&moving, hit.impact([0.0; 2]).into());
@@ -244,12 +256,12 @@ pub(crate) const LIMIT: f64 = 1.002;
 /// For elements that are near at the start, it is a time up to which they do not meet, if they meet
 /// later. Times after `of_interest` may be left out.
 #[cold]
-fn approach(moving: &Moving, distance: f64, of_interest: f64) -> (Option<[f64; 2]>, Decided) {
-    let until = distant_until(moving, distance, of_interest);
+fn approach(moving: &Moving, distance: Length, of_interest: f64) -> (Option<[f64; 2]>, Decided) {
+    let [least, most] = distance.bounds();
+    let until = distant_until(moving, most, of_interest);
     let [start, _] = moving.corners;
     let start = primitives(moving.are_edges, start);
-    let is_near =
-        || starts_surely_within(moving, distance) || are_within_distance(&start, distance);
+    let is_near = || starts_surely_within(moving, least) || are_within_distance(&start, distance);
     if until > 0.0 || !is_near() {
         return (
             (until < 1.0).then_some([until; 2]),

@@ -4,6 +4,7 @@ use crate::all_pairs::{Element, ElementPairs, Moving};
 use crate::error::Error;
 use crate::geometry::Real;
 use crate::world::scalar::Scalar;
+use pliant_exact::Length;
 
 /// Candidates (vertex of a, triangle of b), sorted, as in
 /// [`World::vertex_triangle_candidates`](crate::World::vertex_triangle_candidates). Cost: O(n_a
@@ -58,7 +59,12 @@ pub fn self_edge_edge_pairs<S: Scalar>(
     ElementPairs::EdgesAndEdges.that(body, None, near(radius))
 }
 
-/// Whether the boxes of two elements, over both ends of their motions, are within twice `radius`.
+/// Whether the boxes of two elements, over both ends of their motions, are within twice `radius`
+/// and their thickness.
 fn near<S: Real>(radius: f64) -> impl Fn(Element<S>, Element<S>) -> bool {
-    move |(a, of_a), (b, of_b)| a.box_of(of_a).are_within(&b.box_of(of_b), 2.0 * radius)
+    move |(a, of_a), (b, of_b)| {
+        let [s, t] = [a.thickness_of(of_a), b.thickness_of(of_b)];
+        let gap = Length::sum([2.0 * radius, s, t]);
+        a.box_of(of_a).are_within(&b.box_of(of_b), gap)
+    }
 }

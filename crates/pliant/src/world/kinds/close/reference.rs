@@ -4,6 +4,7 @@ use crate::all_pairs::{Element, ElementPairs, Moving};
 use crate::error::Error;
 use crate::geometry::{Bounds, Real};
 use crate::world::scalar::Scalar;
+use pliant_exact::Length;
 use pliant_exact::distance::{Primitives, are_within_distance};
 
 /// Pairs (vertex of a, triangle of b) at most `distance` apart, sorted, as in
@@ -64,22 +65,30 @@ pub fn self_close_edge_edge_pairs<S: Scalar>(
     ElementPairs::EdgesAndEdges.that(body, None, close_in_one(distance))
 }
 
-/// Whether two elements of two bodies are at most `distance` apart in the present shapes.
+/// Whether two elements of two bodies are at most `distance` and their thickness apart in the
+/// present shapes.
 fn close<S: Real>(distance: f64) -> impl Fn(Element<S>, Element<S>) -> bool {
-    move |(a, of_a), (b, of_b)| are_close([a.positions, b.positions], of_a, of_b, distance)
+    move |a, b| are_close([a.0.positions, b.0.positions], a, b, distance)
 }
 
-/// Whether two elements of one body are at most `distance` apart in the present shape, and not in
-/// the rest shape.
+/// Whether two elements of one body are at most `distance` and their thickness apart in the present
+/// shape, and not in the rest shape.
 fn close_in_one<S: Real>(distance: f64) -> impl Fn(Element<S>, Element<S>) -> bool {
-    move |(body, a), (_, b)| {
+    move |a, b| {
         let at = |shape| are_close([shape; 2], a, b, distance);
-        at(body.positions) && !body.rest.is_some_and(at)
+        at(a.0.positions) && !a.0.rest.is_some_and(at)
     }
 }
 
-/// Whether two elements, by their vertices, are at most `distance` apart at these positions.
-fn are_close<S: Real>([of_a, of_b]: [&[[S; 3]]; 2], a: &[u32], b: &[u32], distance: f64) -> bool {
+/// Whether two elements are at most `distance` and their thickness apart at these positions.
+fn are_close<S: Real>(
+    [of_a, of_b]: [&[[S; 3]]; 2],
+    (body_a, a): Element<S>,
+    (body_b, b): Element<S>,
+    distance: f64,
+) -> bool {
+    let [s, t] = [body_a.thickness_of(a), body_b.thickness_of(b)];
+    let distance = Length::sum([distance, s, t]);
     let corner = |at: &[[S; 3]], vertex: u32| at[vertex as usize].map(Real::to_f64);
     let [box_a, box_b] = [(of_a, a), (of_b, b)].map(|(at, vertices)| {
         let mut bounds = Bounds::EMPTY;

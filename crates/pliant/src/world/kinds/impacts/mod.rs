@@ -149,7 +149,7 @@ ask_impacts!(EdgeEdgeImpact, edge_edge, EdgeEdgeCandidates, OfKind::Edges);
 impl<S: Coordinate> State<S> {
     /// Makes the question for all impacts of one kind of candidates.
     fn all_of<K>(request: &Request, within: impl Fn(Margin) -> K) -> Result<Impacts<K>, Error> {
-        let candidates = within(Margin::new(0.0));
+        let candidates = within(Margin::new(0.0).counting_thickness(0.0));
         Ok(Impacts::of(candidates, request.grid()?, Reach::End))
     }
 }

@@ -204,8 +204,8 @@ pub(crate) fn floats(given: &Any<'_>, [name, what]: [&str; 2]) -> Result<Vec<f64
     if array.ndim() != 1 || !matches!(dtype.kind(), b'f' | b'u' | b'i') {
         let dimensions = array.ndim();
         return Err(refused!(BadArray:
-            "{name} has {dimensions} dimensions and is of type {dtype}; it must be a number, or an \
-             array of numbers, {what}"));
+            "{name} has {dimensions} dimensions and is of type {dtype}; it must hold \
+             numbers, {what}"));
     }
     Ok(array
         .call_method0(intern!(given.py(), "tolist"))?

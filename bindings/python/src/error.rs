@@ -32,6 +32,7 @@ pub(crate) enum Refused {
 #[derive(Debug, IntoPyObject)]
 pub(crate) enum Fact {
     Number(i128),
+    Length(f64),
     Position((f64, f64, f64)),
     Ends((u32, u32)),
     Text(String),
@@ -53,6 +54,7 @@ facts! {
     usize, number => Self::Number(number as i128);
     u32, number => Self::Number(number.into());
     BodyId, body => Self::Number(body.0.into());
+    f64, length => Self::Length(length);
     [f64; 3], position => Self::Position(position.into());
     [u32; 2], ends => Self::Ends(ends.into());
     String, text => Self::Text(text);
@@ -158,6 +160,7 @@ impl From<pliant::Error> for Refused {
             NotWritten { vertex }
             TooManyHits { limit }
             BadThickness { vertex, thickness }
+            NoSuchHit { hit }
             NoSuchTriangle { triangle, triangles }
             EmptyTriangle { triangle }
             NoSuchVertex { vertex, vertices }

@@ -52,7 +52,8 @@ use std::borrow::Cow;
 /// - change of a mesh: set_mesh, edit, apply, live_triangles, live_vertices, mesh_revision,
 ///   components, split, fuse, weld
 /// - who may meet: set_filter, filter, set_environment, environment, ignore, unignore, ignored,
-///   set_vertex_groups, vertex_groups, set_rest_positions, rest_positions, set_thickness, thickness
+///   set_vertex_groups, vertex_groups, set_rest_positions, rest_positions, set_thickness,
+///   set_vertex_thickness, thickness
 /// - speed: options, rebuild, tree_quality, set_loose_box, loose_box, vertex_order, statistics,
 ///   memory_usage
 /// - the tree itself: tree_shape, tree_cut, tree_boxes, validate
@@ -577,10 +578,10 @@ impl World {
         })
     }
 
-    /// Makes a body thick: thickness is a float, or (n,) floats, one for each vertex, at least 0.
+    /// Makes a body thick: every vertex is a ball of this radius, a float of at least 0.
     ///
     /// An element is as thick as the thickest of its vertices. Two elements of thickness s and t
-    /// are close if they are at most distance + s + t apart, and candidates with boxes at most
+    /// are close if they are at most distance + s + t apart. Candidates have boxes at most
     /// 2 radius + s + t apart. Steps free of contact keep min_distance + s + t, and clearance is
     /// what is left of distances. Measured distances stay what they are. Intersections and impacts
     /// are of bodies without thickness. A thick cloth needs set_rest_positions: its neighbours are
@@ -589,11 +590,15 @@ impl World {
     /// It stays with the body. A vertex that is split from another is as thick as that. Other new
     /// vertices, and all of another mesh, are as thick as the thickest.
     ///
+    /// Raises pliant.Error: NoSuchBody, BadThickness. Cost: O(n).
+    fn set_thickness(&self, py: Python<'_>, body: Body, thickness: f64) -> Result<()> {
+        ask!(self, py, world => world.set_thickness(body.0, thickness)?)
+    }
+
+    /// Gives every vertex of a body a thickness of its own, (n,) floats: see set_thickness.
+    ///
     /// Raises pliant.Error: NoSuchBody, BadArray, WrongLength, BadThickness. Cost: O(n).
-    fn set_thickness(&self, py: Python<'_>, body: Body, thickness: &Any<'_>) -> Result<()> {
-        if let Ok(one) = thickness.extract::<f64>() {
-            return ask!(self, py, world => world.set_thickness(body.0, one)?);
-        }
+    fn set_vertex_thickness(&self, py: Python<'_>, body: Body, thickness: &Any<'_>) -> Result<()> {
         let all = arrays::floats(thickness, ["thickness", "one for each vertex"]);
         let all = all.map_err(|refused| refused.of_body(Some(body.0)))?;
         ask!(self, py, world => world.set_vertex_thickness(body.0, &all)?)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -241,31 +242,60 @@ def test_thickness_counts_for_close_pairs_and_candidates() -> None:
     world = pliant.World()
     low, high = (world.add(faces, flat + [0.3, 0.2, height]) for height in (0.0, 1.0))
     of = Selection.between(low, high)
-    asked = [
+    asked: list[Callable[[], Any]] = [
         lambda: world.close_vertex_triangle_pairs(of, 0.25),
         lambda: world.close_edge_edge_pairs(of, 0.25),
         lambda: world.close_triangle_pairs(of, 0.25),
         lambda: world.edge_edge_candidates(of, 0.125),
         lambda: world.vertex_triangle_candidates(of, 0.125),
     ]
-    assert not any(len(one()) for one in asked)
+    assert not any(one().first() for one in asked)
     world.set_thickness(low, 0.25)
     world.set_thickness(high, 0.5)
-    assert all(len(one()) for one in asked)
+    assert all(one().first() for one in asked)
     assert world.close_vertex_triangle_pairs(of, 0.25).all().distance.min() == 1.0
     assert world.clearance(of, 2.0)[low].min() == pytest.approx(0.125, abs=1e-6)
     every = world.close_vertex_triangle_pairs(of, 0.25).all()
     # One vertex that is thick enough: its own triangles, and itself.
     of_vertices = np.zeros(16)
     of_vertices[5] = 0.5
-    world.set_thickness(high, of_vertices)
+    world.set_vertex_thickness(high, of_vertices)
     some = world.close_vertex_triangle_pairs(of, 0.25).all()
     is_thick = np.where(some.pairs[:, 2] == high, (faces[some.pairs[:, 3]] == 5).any(1), some.pairs[:, 1] == 5)
-    assert 0 < len(some) < len(every) and is_thick.all()
+    assert 0 < len(some.pairs) < len(every.pairs) and is_thick.all()
     again = pickle.loads(pickle.dumps(world))
     assert again.thickness(high).tolist() == world.thickness(high).tolist() == of_vertices.tolist()
     assert again.thickness(low).tolist() == [0.25] * 16
-    for bad, kind in ((-1, "BadThickness"), ([1.0], "WrongLength"), ("thick", "BadArray"), (np.full(16, np.nan), "BadThickness")):
+    for bad, kind in (([1.0], "WrongLength"), (["thick"] * 16, "BadArray"), (np.full(16, np.nan), "BadThickness")):
         with pytest.raises(pliant.Error) as refused:
-            world.set_thickness(low, bad)
+            world.set_vertex_thickness(low, bad)
         assert refused.value.kind == kind, refused.value
+    with pytest.raises(pliant.Error, match="the thickness of vertex 0 is -1") as refused:
+        world.set_thickness(low, -1)
+    assert (refused.value.body, refused.value.vertex, refused.value.thickness) == (low, 0, -1)
+
+
+def test_lists_come_in_job_order_and_in_rows() -> None:
+    world, _, _ = bodies(np.float32)
+    asked: list[tuple[Any, Callable[[int], int]]] = [
+        (world.vertex_triangle_candidates(Selection.EVERYTHING, 0.1), world.vertex_count),
+        (world.edge_edge_candidates(Selection.EVERYTHING, 0.1), lambda body: len(world.edges(body))),
+        (world.close_edge_edge_pairs(Selection.EVERYTHING, 0.2), lambda body: len(world.edges(body))),
+        (world.close_triangle_pairs(Selection.EVERYTHING, 0.3), world.triangle_count),
+    ]
+
+    def as_rows(hits: Any) -> Any:
+        return hits if isinstance(hits, np.ndarray) else hits.pairs
+
+    for query, count in asked:
+        hits = as_rows(query.all(sort=False))
+        assert sorted(hits.tolist()) == as_rows(query.all()).tolist() and len(hits)
+        with pytest.raises(pliant.Error):
+            query.all(sort=False, at_most=len(hits) - 1)
+        rows = query.rows()
+        assert (as_rows(rows.hits) == hits).all() and len(rows.places) == len(hits)
+        assert rows.starts == {0: 0, 1: count(0)} and len(rows.offsets) == count(0) + count(1) + 1
+        for body in (0, 1):
+            for element in range(count(body)):
+                own = np.flatnonzero((hits[:, 0] == body) & (hits[:, 1] == element))
+                assert rows.row(body, element).tolist() == own.tolist()

@@ -104,6 +104,11 @@ pub enum ErrorKind {
         /// The distance.
         distance: f64,
     },
+    /// A hit of a list names a vertex, an edge or a triangle that its body does not have.
+    NoSuchHit {
+        /// Place of the hit in the list.
+        hit: usize,
+    },
     /// The thickness of a vertex is negative, infinite or NaN.
     BadThickness {
         /// The vertex.
@@ -320,6 +325,11 @@ impl ErrorKind {
             Self::BadDistance { distance } => write!(
                 f,
                 "the distance is {distance}; give a finite number that is at least 0"
+            ),
+            Self::NoSuchHit { hit } => write!(
+                f,
+                "hit {hit} of the list names an element that the body does not have; ask for the \
+                 list again after the mesh has changed"
             ),
             Self::BadThickness { vertex, thickness } => write!(
                 f,

@@ -119,6 +119,7 @@ mod error;
 mod feature_pairs;
 mod geometry;
 mod held;
+mod hit_rows;
 mod ids;
 mod kernels;
 mod mesh;
@@ -139,6 +140,7 @@ pub use curves::{Curve, CurveEnd, Curves, Segment, Segments, Step};
 pub use edit::{Edit, Edited};
 pub use error::{Error, ErrorKind};
 pub use feature_pairs::{FeaturePair, FeaturePairs};
+pub use hit_rows::{HitRows, InRows};
 pub use ids::BodyId;
 #[doc(hidden)]
 pub use kernels::Instructions;

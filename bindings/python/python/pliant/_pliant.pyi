@@ -35,6 +35,7 @@ from ._types import (
     EdgeEdge,
     Edited,
     FeaturePairs,
+    HitRows,
     Frame,
     FreeStep,
     Fused,
@@ -189,8 +190,10 @@ class World:
         """Gives a body a rest shape, positions (n, 3), or takes it away with None."""
     def rest_positions(self, body: SupportsIndex) -> NDArray[Any] | None:
         """Positions of a body in its rest shape, a new array (n, 3), or None if it has none."""
-    def set_thickness(self, body: SupportsIndex, thickness: float | _Array) -> None:
-        """Makes a body thick: thickness is a float, or (n,) floats, one for each vertex, at least 0."""
+    def set_thickness(self, body: SupportsIndex, thickness: float) -> None:
+        """Makes a body thick: every vertex is a ball of this radius, a float of at least 0."""
+    def set_vertex_thickness(self, body: SupportsIndex, thickness: _Array) -> None:
+        """Gives every vertex of a body a thickness of its own, (n,) floats: see set_thickness."""
     def thickness(self, body: SupportsIndex) -> NDArray[np.float64]:
         """Thickness of every vertex of a body, a new array (n,) float64."""
     def vertex_groups(self, body: SupportsIndex) -> NDArray[np.uint32]:
@@ -304,8 +307,10 @@ class Changes:
 class CloseQuery:
     """A question which elements are close, answered by all() or first()."""
 
-    def all(self, *, at_most: int | None = None) -> ClosePairs:
+    def all(self, *, at_most: int | None = None, sort: bool = True) -> ClosePairs:
         """All close pairs, a ClosePairs of arrays, sorted by their numbers."""
+    def rows(self, *, at_most: int | None = None) -> HitRows:
+        """All hits in compressed rows (CSR), a HitRows: a row for each first element."""
     def first(self) -> ClosePair | None:
         """Some close pair, a ClosePair, or None if there is none."""
     def visit_some(self, visit: Callable[[ClosePairs], object]) -> bool:
@@ -340,8 +345,10 @@ class Edit:
 class ContactQuery:
     """A question which triangles intersect and how, answered by all() or first()."""
 
-    def all(self, *, at_most: int | None = None) -> Contacts:
+    def all(self, *, at_most: int | None = None, sort: bool = True) -> Contacts:
         """All contacts, a Contacts of arrays, sorted by their numbers."""
+    def rows(self, *, at_most: int | None = None) -> HitRows:
+        """All hits in compressed rows (CSR), a HitRows: a row for each first element."""
     def first(self) -> Contact | None:
         """Some contact, a Contact, or None if there is none."""
     def visit_some(self, visit: Callable[[Contacts], object]) -> bool:
@@ -353,8 +360,10 @@ class ContactQuery:
 class ImpactQuery:
     """A question which elements meet during the motion, answered by all() or first()."""
 
-    def all(self, *, at_most: int | None = None) -> Impacts:
+    def all(self, *, at_most: int | None = None, sort: bool = True) -> Impacts:
         """All impacts, an Impacts of arrays, sorted by their numbers."""
+    def rows(self, *, at_most: int | None = None) -> HitRows:
+        """All hits in compressed rows (CSR), a HitRows: a row for each first element."""
     def first(self) -> Impact | None:
         """The impact with the least exact time, an Impact, or None if nothing meets."""
     def visit_some(self, visit: Callable[[Impacts], object]) -> bool:
@@ -382,8 +391,10 @@ class Selection:
 class Query(Generic[_Hit]):
     """A question to a world, answered by all(), first() or visit()."""
 
-    def all(self, *, at_most: int | None = None) -> _Hits:
+    def all(self, *, at_most: int | None = None, sort: bool = True) -> _Hits:
         """All hits, a new array (k, 4) uint32, sorted."""
+    def rows(self, *, at_most: int | None = None) -> HitRows:
+        """All hits in compressed rows (CSR), a HitRows: a row for each first element."""
     def first(self) -> _Hit | None:
         """Some hit, a Pair, CrossingEdge, VertexTriangle or EdgeEdge, or None if there is none."""
     def visit(self, visit: Callable[[_Hit], object]) -> bool:

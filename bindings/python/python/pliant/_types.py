@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, NamedTuple, Protocol
+from operator import index
+from typing import Any, NamedTuple, Protocol, SupportsIndex
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -49,6 +50,7 @@ class Error(ValueError):
       EmptyTriangle     the triangle was removed: triangle
       NoSuchVertex      vertex, vertices
       NoSuchEdge        edge, edges
+      NoSuchHit         a hit names an element that its body does not have: hit
       MissingEdge       edges lack one of the mesh: ends
       NotAnEdge         edges have one that the mesh has not, or have it twice: edge, ends
       EditedMesh        edges are numbered before a mesh is edited
@@ -83,13 +85,17 @@ class Error(ValueError):
     edges: int | None = None
     #: Both vertices of the edge.
     ends: tuple[int, int] | None = None
+    #: The hit of the list, counted from 0.
+    hit: int | None = None
+    #: Thickness of the vertex.
+    thickness: float | None = None
     #: Position of the vertex.
     position: tuple[float, float, float] | None = None
     #: Number of vertices of the body.
     expected: int | None = None
-    #: Number of positions or groups given.
+    #: Number of positions, groups or thicknesses given.
     found: int | None = None
-    #: "triangles", "vertices" or "pairs"; of a wrong length, "positions" or "groups".
+    #: "triangles", "vertices" or "pairs"; of a wrong length, "positions", "groups" or "thicknesses".
     what: str | None = None
     #: Number of triangles, vertices or pairs.
     count: int | None = None
@@ -107,6 +113,29 @@ class Error(ValueError):
         self.kind = kind
         for name, fact in facts.items():
             setattr(self, name, fact)
+
+
+class HitRows(NamedTuple):
+    """Hits in compressed rows (CSR), one for each first element: what rows() returns.
+
+    Rows of a body are in a row, by number, and bodies by number. Row i has the hits
+    places[offsets[i]:offsets[i + 1]]. Which element is first, the hits say: of a vertex and a
+    triangle it is the vertex.
+    """
+
+    #: All hits in job order, as all(sort=False) returns them.
+    hits: Any
+    #: (rows + 1,) where each row begins in places, and its end.
+    offsets: NDArray[np.uint32]
+    #: (k,) rows of hits, row by row.
+    places: NDArray[np.uint32]
+    #: First row of every body.
+    starts: dict[int, int]
+
+    def row(self, body: SupportsIndex, element: SupportsIndex) -> NDArray[np.uint32]:
+        """Places of the hits whose first element this is."""
+        row = self.starts[index(body)] + index(element)
+        return self.places[self.offsets[row] : self.offsets[row + 1]]
 
 
 class Pair(NamedTuple):
@@ -680,7 +709,7 @@ class OpenMesh(Protocol):
 
 
 _PUBLIC = (
-    *(Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, FeatureKind, FeaturePairs, Contact, ContactKind, Contacts),
+    *(Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, FeatureKind, FeaturePairs, HitRows, Contact, ContactKind, Contacts),
     *(CrossingEdge, Segments, CurveEnd, Curves, Changed, Edited, Fused, Piece, Impact, Impacts, FreeStep, TreeBoxes, TreeShape, Statistics),
     *(Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Adjacent, CrossingEdges, Frame, Mesh, OpenMesh),
 )

@@ -101,7 +101,8 @@ query_class! {
     /// All close pairs, a ClosePairs of arrays, sorted by their numbers.
     ///
     /// Options, history and number of threads do not change it. at_most refuses a longer list with
-    /// pliant.Error: TooManyHits, before it fills the memory.
+    /// pliant.Error: TooManyHits, before it fills the memory. sort=False leaves job order, which is
+    /// equal for any number of threads.
     ///
     /// Cost: the region where elements are close, and O(k) for k pairs.
     all;

@@ -120,7 +120,8 @@ query_class! {
     /// All contacts, a Contacts of arrays, sorted by their numbers.
     ///
     /// Options, history and number of threads do not change it. at_most refuses a longer list with
-    /// pliant.Error: TooManyHits, before it fills the memory.
+    /// pliant.Error: TooManyHits, before it fills the memory. sort=False leaves job order, which is
+    /// equal for any number of threads.
     ///
     /// Cost: that of Query.all. Pairs whose kind rounded signs leave open take their exact signs
     /// once more.

@@ -76,7 +76,8 @@ query_class! {
     /// All impacts, an Impacts of arrays, sorted by their numbers.
     ///
     /// Options, history and number of threads do not change it. at_most refuses a longer list with
-    /// pliant.Error: TooManyHits, before it fills the memory.
+    /// pliant.Error: TooManyHits, before it fills the memory. sort=False leaves job order, which is
+    /// equal for any number of threads.
     ///
     /// Memory is for what meets: pairs that are looked at on the way are not listed.
     all;

@@ -4,15 +4,16 @@
 //! [`query_class`] makes its class, because pyo3 has no generic classes. A new kind also needs its
 //! `mod` below, its class in `lib.rs`, and the methods of `World` that ask it.
 
-use crate::answers::Any;
+use crate::answers::{Any, Column, class};
 use crate::error::Result;
 use crate::selection::Selection;
 use crate::signals::interruptible;
 use crate::state::Shared;
-use pliant::Scalar;
-use pliant_check::with_world;
+use pliant::{BodyId, HitRows, Scalar};
+use pliant_check::{AnyWorld, with_world};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use pyo3::types::IntoPyDict;
 use std::ops::ControlFlow;
 
 pub(crate) mod close;
@@ -21,7 +22,7 @@ pub(crate) mod impacts;
 pub(crate) mod pairs;
 
 /// Hit of the library, and the objects of Python that one and many become.
-pub(crate) trait Hit: Copy + Send + 'static {
+pub(crate) trait Hit: pliant::InRows + Send + 'static {
     /// Many hits, column by column, as arrays take them over.
     type Columns: Send;
 
@@ -72,15 +73,55 @@ impl<'w, W: Want> Wanted<'w, W> {
 /// Object of Python that is made when the world is free again.
 pub(crate) type Made = Box<dyn FnOnce(Python<'_>) -> PyResult<Any<'_>> + Send>;
 
-/// All hits, up to a limit.
-pub(crate) struct All(pub(crate) usize);
+/// All hits, up to a limit, sorted or in job order.
+pub(crate) struct All {
+    pub(crate) most: usize,
+    pub(crate) sort: bool,
+}
 
 impl Want for All {
     type Answer = Made;
 
     fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<Made> {
-        let columns = H::columns(query.at_most(self.0).all()?);
+        let query = query.at_most(self.most);
+        let columns = if self.sort {
+            H::columns(query.all()?)
+        } else {
+            let mut hits = Vec::new();
+            query.unsorted(&mut hits)?;
+            H::columns(&hits)
+        };
         Ok(Box::new(move |py| H::many(columns, py)))
+    }
+}
+
+/// All hits, up to a limit, with rows of their first elements.
+pub(crate) struct InRows(pub(crate) usize);
+
+/// Hits that wait for the world, which knows how many rows there are.
+type Rowed = Box<dyn FnOnce(&AnyWorld) -> Result<Made> + Send>;
+
+impl Want for InRows {
+    type Answer = Rowed;
+
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<Rowed> {
+        let mut hits = Vec::new();
+        query.at_most(self.0).unsorted(&mut hits)?;
+        Ok(Box::new(move |world| {
+            let mut rows = HitRows::new();
+            let starts: Vec<(u32, usize)> = with_world!(world, world => {
+                rows.update(world, &hits)?;
+                let start = |body: BodyId| Some((body.0, rows.start(body)?));
+                world.bodies().filter_map(start).collect()
+            });
+            let columns = H::columns(&hits);
+            Ok(Box::new(move |py| {
+                let offsets = Column(rows.offsets().to_vec());
+                let places = Column(rows.places().to_vec());
+                let hits = H::many(columns, py)?;
+                class!(py, "HitRows").call1((hits, offsets, places, starts.into_py_dict(py)?))
+            }))
+        }))
     }
 }
 
@@ -220,10 +261,27 @@ macro_rules! query_class {
             }
 
             $(#[$all])*
-            #[pyo3(signature = (*, at_most=None))]
-            fn all<'py>(&self, py: Python<'py>, at_most: Option<usize>) -> Result<Any<'py>> {
+            #[pyo3(signature = (*, at_most=None, sort=true))]
+            fn all<'py>(
+                &self,
+                py: Python<'py>,
+                at_most: Option<usize>,
+                sort: bool,
+            ) -> Result<Any<'py>> {
                 let most = at_most.unwrap_or(usize::MAX);
-                Ok(self.0.ask(py, $crate::queries::All(most))?(py)?)
+                Ok(self.0.ask(py, $crate::queries::All { most, sort })?(py)?)
+            }
+
+            /// All hits in compressed rows (CSR), a HitRows: a row for each first element.
+            ///
+            /// Hits are in job order, as with all(sort=False). at_most refuses a longer list.
+            ///
+            /// Cost: that of all(sort=False), and O(hits + rows).
+            #[pyo3(signature = (*, at_most=None))]
+            fn rows<'py>(&self, py: Python<'py>, at_most: Option<usize>) -> Result<Any<'py>> {
+                let most = at_most.unwrap_or(usize::MAX);
+                let rowed = self.0.ask(py, $crate::queries::InRows(most))?;
+                Ok(self.0.world.with(py, |state| rowed(&state.world))?(py)?)
             }
 
             $(#[$first])*

@@ -1,7 +1,7 @@
 //! Query as a builder: whom it is about, how much is wanted, and what may end it early.
 
 use crate::collide::{Ask, Request};
-use crate::error::Error;
+use crate::error::{Error, ErrorKind};
 use crate::selection::Selection;
 use crate::threads::Question;
 use std::fmt;
@@ -110,6 +110,42 @@ impl<'w, H: Copy> Query<'w, H> {
     /// See [`Query`].
     pub fn all(self) -> Result<&'w [H], Error> {
         self.asked.all(&self.request)
+    }
+
+    /// Replaces a list by all hits, in job order: not sorted, in the order of
+    /// [`visit`](Self::visit).
+    ///
+    /// That order is equal for any number of threads and any instruction set. With other options,
+    /// or another history, it may differ. It is for callers that sum over many hits, for whom
+    /// sorting would take most of the time; [`HitRows`](crate::HitRows) groups them. Several
+    /// threads may be slower than [`all`](Self::all), which they share better. The list keeps its
+    /// memory; if the query fails, it is empty.
+    ///
+    /// # Errors
+    ///
+    /// See [`Query`].
+    pub fn unsorted(self, list: &mut Vec<H>) -> Result<(), Error> {
+        list.clear();
+        let most = self.request.most;
+        let mut are_too_many = false;
+        let done = self.asked.visit(&self.request, &mut |found| {
+            are_too_many = found.len() > most - list.len();
+            if are_too_many {
+                return ControlFlow::Break(0);
+            }
+            list.extend_from_slice(found);
+            ControlFlow::Continue(())
+        });
+        let limit = most;
+        let done = if are_too_many {
+            Err(ErrorKind::TooManyHits { limit }.of_query())
+        } else {
+            done
+        };
+        if done.is_err() {
+            list.clear();
+        }
+        done
     }
 
     /// Returns some hit, if there is one: much cheaper than all where there are many.

@@ -548,18 +548,18 @@ fn lives<S: Scalar>(
                 12 => {
                     // All are as thick, or each is for itself.
                     let body = &mut known[some];
-                    let mut thick = |_| match random.below(4) {
+                    let mut thick = || match random.below(4) {
                         0 => 0.0,
                         1 => unit / 2.0,
                         2 => f64::from(random.unit()) * unit,
                         _ => [5e-324, 1e-300, 3.0 * unit, 0.1 * unit][random.below(4) as usize],
                     };
-                    let one = thick(());
+                    let one = thick();
                     let mut all = vec![one; body.positions.len()];
-                    if thick(()) > 0.0 {
+                    if thick() > 0.0 {
                         world.set_thickness(body.id, one).unwrap();
                     } else {
-                        all.iter_mut().for_each(|it| *it = thick(()));
+                        all.iter_mut().for_each(|it| *it = thick());
                         world.set_vertex_thickness(body.id, &all).unwrap();
                     }
                     assert_eq!(world.thickness(body.id).unwrap(), all);

@@ -159,7 +159,7 @@ fn clearance_is_what_is_left_of_thickness() {
     let mut left = [0; 2];
     for body in [a, b] {
         for (found, plain) in found[body].iter().zip(&plain[body]) {
-            let expected = (plain - (thick[0] + thick[1]) / 2.0).max(0.0);
+            let expected = (plain - f64::midpoint(thick[0], thick[1])).max(0.0);
             assert!(
                 (found - expected).abs() <= 1e-6 * plain,
                 "{found} {expected}"

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A folder, or a file of the crate's root, and the folders that it may use.
-const LAYERS: [(&str, &[&str]); 25] = [
+const LAYERS: [(&str, &[&str]); 26] = [
     ("held", &[]),
     ("ids", &[]),
     ("options", &[]),
@@ -144,6 +144,7 @@ const LAYERS: [(&str, &[&str]); 25] = [
         "feature_pairs",
         &["ids", "error", "geometry", "queries", "world"],
     ),
+    ("hit_rows", &["ids", "error", "queries", "world"]),
     ("lib", &[]),
 ];
 

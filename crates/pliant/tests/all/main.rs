@@ -33,6 +33,7 @@ mod first_impact;
 mod flush_to_zero;
 mod free_step;
 mod hashes;
+mod hit_rows;
 mod impacts;
 mod layers;
 mod mending;

@@ -22,6 +22,8 @@ pub(crate) struct Bodies<S> {
     next_id: Option<u32>,
     /// Pairs of bodies that do not meet in queries of the whole world, each pair in both orders.
     ignored: BTreeSet<(BodyId, BodyId)>,
+    /// Whether a body was ever put into an environment.
+    have_environments: bool,
 }
 
 impl<S> Default for Bodies<S> {
@@ -32,6 +34,7 @@ impl<S> Default for Bodies<S> {
             places: Vec::new(),
             next_id: Some(0),
             ignored: BTreeSet::new(),
+            have_environments: false,
         }
     }
 }
@@ -58,6 +61,7 @@ impl<S: Coordinate> Bodies<S> {
             places: self.places.clone(),
             next_id: self.next_id,
             ignored: self.ignored.clone(),
+            have_environments: self.have_environments,
         }
     }
 
@@ -183,6 +187,23 @@ impl<S: Coordinate> Bodies<S> {
     pub(crate) fn ignored(&self) -> Vec<[BodyId; 2]> {
         let once = self.ignored.iter().filter(|(a, b)| a <= b);
         once.map(|&(a, b)| [a, b]).collect()
+    }
+
+    /// Puts a body into an environment.
+    pub(crate) fn set_environment(&mut self, id: BodyId, environment: u32) -> Result<(), Error> {
+        self.get_mut(id)?.set_environment(environment);
+        self.have_environments = true;
+        Ok(())
+    }
+
+    /// Environments of all bodies, in the order of their ids; none if all are in the first.
+    pub(crate) fn environments(&self) -> impl Iterator<Item = u32> {
+        let some = if self.have_environments {
+            self.len()
+        } else {
+            0
+        };
+        self.in_order().take(some).map(Body::environment)
     }
 
     /// Whether two bodies, or one and itself, meet in queries of the whole world.

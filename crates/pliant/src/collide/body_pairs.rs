@@ -4,7 +4,7 @@
 //! place thus cost time but no memory. A query that ends early searches for no pairs that it does
 //! not need. If one batch holds all pairs, it is kept until something moves.
 
-use crate::bodies::{Bodies, Body};
+use crate::bodies::Bodies;
 use crate::broad_phase::{Boxes, BroadPhase, Keep, Overlap, Show};
 use crate::error::Error;
 use crate::geometry::{Aabb, Origin};
@@ -234,7 +234,7 @@ impl BodyPairs {
         } = self;
         let ranks = bodies.places();
         environments.clear();
-        environments.extend(bodies.in_order().map(Body::environment));
+        environments.extend(bodies.environments());
         if environments.iter().all(|it| *it == environments[0]) {
             environments.clear();
         }

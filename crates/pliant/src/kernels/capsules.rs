@@ -16,6 +16,8 @@ use fearless_simd::{f32x8, mask32x8};
 const RELATIVE_ERROR: f32 = 1.0 / (1 << 20) as f32;
 /// Bound on what is lost below the normal range: 2^-120.
 const LOST: f32 = 1.0 / (1_u128 << 120) as f32;
+/// Bound on what a length loses whose squares are below the normal range, each by 2^-126: 2^-62.
+const SHORT: f32 = 1.0 / (1_u64 << 62) as f32;
 
 /// Eight capsules in structure-of-arrays order. A lane without one holds everything.
 #[derive(Clone, Copy, Debug)]
@@ -125,7 +127,7 @@ impl<I: Simd> Capsules<I> {
         for axis in 0..3 {
             let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
             let apart = (self.along[k] * way[j] - self.along[j] * way[k]).abs();
-            let long = (size[j] * size[j] + size[k] * size[k]).sqrt();
+            let long = (size[j] * size[j] + size[k] * size[k]).sqrt() + SHORT;
             // Bounds on way[j] and way[k], as boxes overlap.
             let near_j = self.middle[j].abs() + size[j] * self.reach + self.radius;
             let near_k = self.middle[k].abs() + size[k] * self.reach + self.radius;
@@ -152,7 +154,7 @@ impl<I: Simd> Capsules<I> {
     #[inline(always)]
     fn separates(&self, other: &Self, way: Vectors<I>, n: Vectors<I>) -> mask32x8<I> {
         let i = self.reach.token();
-        let length = dot(n, n).sqrt();
+        let length = dot(n, n).sqrt() + SHORT;
         let room = length * (self.radius + other.radius) * f32x8::splat(i, 1.0 + RELATIVE_ERROR);
         let reach = dot(n, self.along).abs() * self.reach + dot(n, other.along).abs() * other.reach;
         let error = sum_of(n) * (sum_of(way) + self.reach + other.reach) * RELATIVE_ERROR + LOST;
@@ -356,5 +358,41 @@ mod tests {
         boxes.set(0, &unused);
         let all = (boxes, EightCapsules::EVERYTHING);
         assert_eq!(claims(&all, &all), 0);
+    }
+
+    /// Axes that are off a coordinate axis, or off each other, by less than a square has room for.
+    #[test]
+    fn what_meets_is_not_apart_where_squares_vanish() {
+        let mut random = Random::new(77);
+        let mut unit = || f64::from(random.below(1 << 20)) / f64::from(1 << 20) - 0.5;
+        let mut claimed = 0;
+        for round in 0..4_000 {
+            let mut triangles = || -> [Triangle; 8] {
+                std::array::from_fn(|lane| {
+                    let (axis, small) = ((round + lane) % 3, 2f64.powi(-60 - (lane as i32) * 7));
+                    let mut ends = [[0.0; 3]; 3];
+                    for end in &mut ends {
+                        *end = [(); 3].map(|()| 40.0 * small * unit());
+                        end[axis] = 2f64.powi(20 + 5 * (lane as i32 % 5)) * unit();
+                        end[(axis + 1) % 3] += if unit() > 0.0 { 64.0 } else { 0.0 };
+                    }
+                    ends
+                })
+            };
+            let (a, b) = (triangles(), triangles());
+            let [of_a, of_b] = [&a, &b].map(|it| volumes(it, [0.0; 3]));
+            let mut apart = claims(&of_a, &of_b);
+            claimed += apart.count_ones();
+            while apart != 0 {
+                let pair = apart.trailing_zeros() as usize;
+                apart &= apart - 1;
+                assert!(
+                    !intersect(&a[pair / 8], &b[pair % 8]),
+                    "{:?}",
+                    (a[pair / 8], b[pair % 8])
+                );
+            }
+        }
+        assert!(claimed > 1_000, "{claimed}");
     }
 }

@@ -51,9 +51,9 @@ impl<S: Scalar> World<S> {
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     #[doc(alias = "world_index")]
     pub fn set_environment(&mut self, body: BodyId, environment: u32) -> Result<(), Error> {
-        let body = self.state_mut().common.bodies.get_mut(body)?;
-        body.set_environment(environment);
-        self.state_mut().common.body_pairs.regroup();
+        let common = &mut self.state_mut().common;
+        common.bodies.set_environment(body, environment)?;
+        common.body_pairs.regroup();
         Ok(())
     }
 

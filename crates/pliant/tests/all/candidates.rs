@@ -903,3 +903,50 @@ fn edges_have_the_callers_numbers() {
         ErrorKind::EditedMesh
     );
 }
+
+/// Found by fuzzing: coordinates of 1e22 beside ones of 1e-22 in one body.
+#[test]
+fn pairs_are_close_beside_what_is_very_far() {
+    let (huge, tiny) = (2f64.powi(74), -(2f64.powi(-70)));
+    let corners = [
+        [2f64.powi(46), huge, huge],
+        [2f64.powi(-109), 2f64.powi(42), 0.0],
+        [tiny, tiny, 2f64.powi(-50)],
+        [tiny, 2f64.powi(-18), 64.0],
+        [64.0, 64.0, 64.0],
+        [64.0, 64.0, 64.0],
+        [64.0, 64.0, tiny],
+        [tiny, -(2f64.powi(44)), 0.0],
+        [0.0, 0.0, 64.0],
+        [tiny; 3],
+        [2f64.powi(46), huge, huge],
+        [2f64.powi(-109), 2f64.powi(42), 0.0],
+    ];
+    let triangles = [
+        [5, 1, 2],
+        [3, 3, 3],
+        [3, 3, 7],
+        [3, 3, 9],
+        [3, 7, 5],
+        [3, 5, 11],
+        [0, 0, 0],
+    ];
+    let moving = Moving::at(&triangles, &corners);
+    for options in every_configuration().into_iter().step_by(7) {
+        let mut world = World::<f64>::with_options(options);
+        let body = world.add(&triangles, &corners).unwrap();
+        let of = Selection::Within(body);
+        for distance in [15.9375, 64.0, 1.0, 1e-10] {
+            let found = world
+                .close_vertex_triangle_pairs(of, distance)
+                .all()
+                .unwrap();
+            let found: Vec<_> = found
+                .iter()
+                .map(|it| [it.pair.vertex, it.pair.triangle])
+                .collect();
+            let expected = reference::self_close_vertex_triangle_pairs(&moving, distance);
+            assert_eq!(found, expected.unwrap(), "{options:?} {distance}");
+        }
+    }
+}

@@ -278,10 +278,10 @@ def test_thickness_counts_for_close_pairs_and_candidates() -> None:
 def test_lists_come_in_job_order_and_in_rows() -> None:
     world, _, _ = bodies(np.float32)
     asked: list[tuple[Any, Callable[[int], int]]] = [
-        (world.vertex_triangle_candidates(Selection.EVERYTHING, 0.1), world.vertex_count),
-        (world.edge_edge_candidates(Selection.EVERYTHING, 0.1), lambda body: len(world.edges(body))),
-        (world.close_edge_edge_pairs(Selection.EVERYTHING, 0.2), lambda body: len(world.edges(body))),
-        (world.close_triangle_pairs(Selection.EVERYTHING, 0.3), world.triangle_count),
+        (world.vertex_triangle_candidates(Selection.EVERYTHING, 0.3), world.vertex_count),
+        (world.edge_edge_candidates(Selection.EVERYTHING, 0.3), lambda body: len(world.edges(body))),
+        (world.close_edge_edge_pairs(Selection.EVERYTHING, 0.5), lambda body: len(world.edges(body))),
+        (world.close_triangle_pairs(Selection.EVERYTHING, 0.5), world.triangle_count),
     ]
 
     def as_rows(hits: Any) -> Any:

@@ -833,8 +833,6 @@ impl<S: Scalar> Lived<S> {
         let found = found.expect("both are there").iter();
         assert!(found.map(|&hit| <[u32; 4]>::from(hit)).eq(expected));
 
-        let (one, other) = in_order(one, other);
-        let [moving_a, moving_b] = [one, other].map(Known::moving);
         let pairs = if a == b {
             reference::self_edge_edge_pairs(&moving_a, radius)
         } else {
@@ -879,8 +877,6 @@ impl<S: Scalar> Lived<S> {
         figures.for_each(|it| check_figures(it, most));
         assert!(found.map(|it| <[u32; 4]>::from(it.pair)).eq(expected));
 
-        let (one, other) = in_order(one, other);
-        let [moving_a, moving_b] = [one, other].map(Known::moving);
         let pairs = if a == b {
             reference::self_close_edge_edge_pairs(&moving_a, distance)
         } else {
@@ -936,8 +932,6 @@ impl<S: Scalar> Lived<S> {
         assert!(rows.eq(expected.iter().copied()));
         let mut earliest = expected.iter().map(|&(_, cell)| cell).collect::<Vec<_>>();
 
-        let (one, other) = in_order(one, other);
-        let [moving_a, moving_b] = [one, other].map(Known::moving);
         let met = if a == b {
             reference::self_edge_edge_impacts(&moving_a, width)
         } else {
@@ -1364,11 +1358,6 @@ fn selection<S>(a: &Known<S>, b: &Known<S>) -> Selection {
     } else {
         Selection::Between(a.id, b.id)
     }
-}
-
-/// The body with the lower number first, as in pairs of edges.
-fn in_order<'k, S>(a: &'k Known<S>, b: &'k Known<S>) -> (&'k Known<S>, &'k Known<S>) {
-    if a.id <= b.id { (a, b) } else { (b, a) }
 }
 
 fn pairs<S: Scalar>(a: &Known<S>, b: &Known<S>) -> Vec<[u32; 2]> {

@@ -1,9 +1,7 @@
 //! Whether the gap of two boxes is at most a distance on every axis, in real arithmetic.
 //!
 //! On an axis the gap of two intervals is the larger of lo_a - hi_b and lo_b - hi_a, negative where
-//! they overlap. Rounding is monotonic, so a rounded difference on one side of a number says on
-//! which side the difference is. Only if it is that number is it not known. Then the error of the
-//! subtraction, which is a floating-point number, decides.
+//! they overlap. `Length` compares both with the distance.
 
 use super::{Length, Point};
 

@@ -37,7 +37,8 @@ impl Length {
         Self(numbers)
     }
 
-    /// Lower and upper bound; both are the length if that is a floating-point number.
+    /// Lower and upper bound. Both are the length if that is a floating-point number of at least
+    /// 2^-900, or one of the three alone.
     #[inline]
     pub fn bounds(&self) -> [f64; 2] {
         let [a, b, c] = self.0;

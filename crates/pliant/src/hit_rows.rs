@@ -14,7 +14,7 @@ use crate::world::{Scalar, World};
 
 /// Rows of a list of hits, one for each element that may be the first of a hit: CSR.
 ///
-/// Rows of a body are in a row, by number; bodies are in the order of their ids. Row i has the
+/// Rows of one body follow each other by number, bodies in the order of their ids. Row i has the
 /// places in the list from `offsets()[i]` to `offsets()[i + 1]` of [`places`](Self::places).
 ///
 /// ```

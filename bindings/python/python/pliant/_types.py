@@ -118,7 +118,7 @@ class Error(ValueError):
 class HitRows(NamedTuple):
     """Hits in compressed rows (CSR), one for each first element: what rows() returns.
 
-    Rows of a body are in a row, by number, and bodies by number. Row i has the hits
+    Rows of one body follow each other by number, bodies by theirs. Row i has the hits
     places[offsets[i]:offsets[i + 1]]. Which element is first, the hits say: of a vertex and a
     triangle it is the vertex.
     """

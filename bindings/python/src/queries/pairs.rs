@@ -101,8 +101,8 @@ query_class! {
     /// history and number of threads do not change it.
     ///
     /// at_most refuses a longer list with pliant.Error: TooManyHits, before it fills the memory.
-    /// sort=False leaves the list in job order, which is equal for any number of threads. For who
-    /// sums over millions, that takes less than half of the time on one thread.
+    /// sort=False leaves the list in job order, which is equal for any number of threads. It is for
+    /// who sums over millions, in whatever order.
     ///
     /// Cost: the broad phase, O(bodies + overlaps) where bodies move a little. Where boxes overlap,
     /// what grows with the region where bodies are close. Sorting is O(k).

@@ -196,7 +196,7 @@ impl<S: Coordinate> Bodies<S> {
         Ok(())
     }
 
-    /// Environments of all bodies, in the order of their ids; none if all are in the first.
+    /// Environments of all bodies, in the order of their ids; none if none was ever put into one.
     pub(crate) fn environments(&self) -> impl Iterator<Item = u32> {
         let some = if self.have_environments {
             self.len()

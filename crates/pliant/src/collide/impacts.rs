@@ -73,17 +73,16 @@ impl<S: Coordinate> AskedImpacts<S> {
         request: &Request,
         of: OfKind,
     ) -> Result<Option<First>, Error> {
-        Ok(self.earliest(common, request, of, false, None)?.first())
+        Ok(self.earliest(common, request, of, None)?.first())
     }
 
-    /// Earliest contact of both kinds or one, after the start or at any time. With a distance, the
-    /// first time at which elements come that near, and their thickness.
+    /// Earliest contact of both kinds or one. With a distance, the first time at which elements
+    /// come that near, and their thickness; where both are 0, the first contact after the start.
     fn earliest(
         &mut self,
         common: &mut Common<S>,
         request: &Request,
         of: OfKind,
-        after_start: bool,
         distance: Option<f64>,
     ) -> Result<Earliest, Error> {
         common.bodies.validate(request.of)?;
@@ -95,7 +94,7 @@ impl<S: Coordinate> AskedImpacts<S> {
             } else {
                 Reach::End
             };
-            let mut earliest = Earliest::new(after_start, until);
+            let mut earliest = Earliest::new(distance.is_some(), until);
             if of != OfKind::Edges {
                 let asked = &mut self.vertex_triangle;
                 earliest = asked.earliest(common, request, reach, distance, earliest)?;
@@ -125,7 +124,7 @@ impl<S: Coordinate> AskedImpacts<S> {
         request: &Request,
     ) -> Result<f64, Error> {
         let distance = request.distance()?;
-        let earliest = self.earliest(common, request, OfKind::Both, true, Some(distance))?;
+        let earliest = self.earliest(common, request, OfKind::Both, Some(distance))?;
         let mut statistics = common.statistics;
         let known = earliest.known();
         if known > 1.0 {

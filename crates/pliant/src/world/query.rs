@@ -116,10 +116,10 @@ impl<'w, H: Copy> Query<'w, H> {
     /// [`visit`](Self::visit).
     ///
     /// That order is equal for any number of threads and any instruction set. With other options,
-    /// or another history, it may differ. It is for callers that sum over many hits, for whom
-    /// sorting would take most of the time; [`HitRows`](crate::HitRows) groups them. Several
-    /// threads may be slower than [`all`](Self::all), which they share better. The list keeps its
-    /// memory; if the query fails, it is empty.
+    /// or another history, it may differ. It is for callers that sum over many hits in whatever
+    /// order; [`HitRows`](crate::HitRows) groups them. Several threads may be slower than
+    /// [`all`](Self::all), which they share better. The list keeps its memory; if the query fails,
+    /// it is empty.
     ///
     /// # Errors
     ///

@@ -3,7 +3,7 @@
 mod common;
 
 use common::kinds::{Wanted, every_kind};
-use pliant::{BroadPhase, Degree, Options, Partition, Selection, World};
+use pliant::{BroadPhase, Degree, HitRows, Options, Partition, Selection, World};
 use pliant_scenes::Scene;
 
 fn replay(scene: &Scene, options: Options, steps: &[u32]) {
@@ -23,6 +23,15 @@ fn replay(scene: &Scene, options: Options, steps: &[u32]) {
     let ids: Vec<_> = (0..scene.body_count())
         .map(|body| world.add(scene.triangles(body), &shapes[0][body]).unwrap())
         .collect();
+    // The first is a thick body with a rest shape, and of several some are elsewhere.
+    world
+        .set_rest_positions(ids[0], Some(&shapes[0][0]))
+        .unwrap();
+    world.set_thickness(ids[0], 0.001).unwrap();
+    for &id in ids.iter().skip(2 + ids.len() / 2) {
+        world.set_environment(id, 1).unwrap();
+    }
+    let (mut unsorted, mut rows) = (Vec::new(), HitRows::new());
     let kinds = every_kind::<f32>();
     let questions = [
         (Selection::World, Wanted::First),
@@ -63,6 +72,10 @@ fn replay(scene: &Scene, options: Options, steps: &[u32]) {
             world.advance_motion(0.5).unwrap();
             let everything = world.edge_edge_candidates(Selection::Everything, 0.01);
             pairs += everything.all().unwrap().len();
+            let everything = world.close_edge_edge_pairs(Selection::Everything, 0.01);
+            everything.unsorted(&mut unsorted).unwrap();
+            rows.update(&world, &unsorted).unwrap();
+            pairs += rows.places().len();
             if let [a, b, ..] = ids[..] {
                 let between = world.intersections(Selection::Between(a, b));
                 pairs += between.all().unwrap().len();

@@ -5,9 +5,10 @@
 
 use crate::error::Error;
 use crate::geometry::{Bounds, Real};
+use crate::labels::Labels;
 use crate::mesh::share_a_vertex;
 use pliant_exact::Triangle;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Mesh: the triangles of a body, and the positions of its vertices.
 pub(crate) type Mesh<'m, S> = (&'m [[u32; 3]], &'m [[S; 3]]);
@@ -100,10 +101,13 @@ pub struct Moving<'m, S> {
     /// Thickness of the vertices, shape (n,), if the body has any: see
     /// [`World::set_thickness`](crate::World::set_thickness).
     pub thickness: Option<&'m [f64]>,
+    /// Labels of the triangles, if the body has any: see
+    /// [`World::set_labels`](crate::World::set_labels).
+    pub labels: Option<Labels<'m>>,
 }
 
 impl<'m, S> Moving<'m, S> {
-    /// A body at these positions that stands still, with neither groups, rest shape nor thickness.
+    /// A body at these positions that stands still, with nothing else.
     pub fn at(triangles: &'m [[u32; 3]], positions: &'m [[S; 3]]) -> Self {
         Self {
             triangles,
@@ -112,6 +116,7 @@ impl<'m, S> Moving<'m, S> {
             groups: None,
             rest: None,
             thickness: None,
+            labels: None,
         }
     }
 
@@ -157,6 +162,74 @@ impl<'m, S> Moving<'m, S> {
     }
 }
 
+/// Removes pairs of triangles of one body that its labels leave out: see
+/// [`World::set_labels`](crate::World::set_labels).
+pub fn leave_out<S>(body: &Moving<S>, pairs: &mut Vec<[u32; 2]>) {
+    let parts = Parts::of(body);
+    pairs.retain(|pair| {
+        let [a, b] = pair.map(|triangle| parts.of_triangle(triangle));
+        !parts.leave_out(&a, &b)
+    });
+}
+
+/// Labels of a body, by the elements that have them.
+struct Parts<'m> {
+    triangles: &'m [[u32; 3]],
+    labels: Option<Labels<'m>>,
+    /// Pairs of neighbours, in both orders.
+    neighbours: BTreeSet<[u32; 2]>,
+}
+
+impl<'m> Parts<'m> {
+    fn of<S>(body: &Moving<'m, S>) -> Self {
+        let mut at: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
+        let mut neighbours = BTreeSet::new();
+        if let Some(labels) = body.labels {
+            for (corners, &label) in body.triangles.iter().zip(labels.of_triangles) {
+                for &corner in corners {
+                    at.entry(corner).or_default().insert(label);
+                }
+            }
+            match labels.neighbours {
+                Some(given) => neighbours.extend(given.iter().flat_map(|&[a, b]| [[a, b], [b, a]])),
+                None => neighbours
+                    .extend(at.values().flat_map(|all| {
+                        all.iter().flat_map(|&a| all.iter().map(move |&b| [a, b]))
+                    })),
+            }
+        }
+        Self {
+            triangles: body.triangles,
+            labels: body.labels,
+            neighbours,
+        }
+    }
+
+    /// Label of a triangle, if it has one.
+    fn of_triangle(&self, triangle: u32) -> Vec<u32> {
+        let all = self.labels.iter();
+        all.map(|labels| labels.of_triangles[triangle as usize])
+            .collect()
+    }
+
+    /// Labels of all triangles that have these vertices.
+    fn at(&self, vertices: &[u32]) -> Vec<u32> {
+        let all = (0..self.triangles.len() as u32).filter(|&triangle| {
+            let corners = &self.triangles[triangle as usize];
+            vertices.iter().all(|vertex| corners.contains(vertex))
+        });
+        all.flat_map(|triangle| self.of_triangle(triangle))
+            .collect()
+    }
+
+    /// Whether two elements with these labels are left out.
+    fn leave_out(&self, a: &[u32], b: &[u32]) -> bool {
+        let are_near = |a: u32, b: u32| a == b || self.neighbours.contains(&[a, b]);
+        let leave_out = |a: u32, b: u32| ![a, b].contains(&Labels::NONE) && are_near(a, b);
+        self.labels.is_some() && a.iter().all(|&a| b.iter().all(|&b| leave_out(a, b)))
+    }
+}
+
 /// Edges of triangles, the smaller vertex first, each once, sorted.
 ///
 /// [`World::edges`](crate::World::edges) numbers them in this order. Cost: O(m log m).
@@ -187,6 +260,24 @@ impl ElementPairs {
     ) -> Result<Vec<[u32; 2]>, Error> {
         let found = self.all(a, other, |a, b| test(a, b).then_some(()))?;
         Ok(without(found))
+    }
+
+    /// The pairs of elements of one body without those that its labels leave out.
+    pub(crate) fn that_stay<S: Real>(
+        self,
+        body: &Moving<S>,
+        pairs: Vec<[u32; 2]>,
+    ) -> Vec<[u32; 2]> {
+        let parts = Parts::of(body);
+        let edges = edges(body.triangles);
+        let stays = |&[a, b]: &[u32; 2]| {
+            let [of_a, of_b] = match self {
+                Self::VerticesAndTriangles => [parts.at(&[a]), parts.of_triangle(b)],
+                Self::EdgesAndEdges => [a, b].map(|edge| parts.at(&edges[edge as usize])),
+            };
+            !parts.leave_out(&of_a, &of_b)
+        };
+        pairs.into_iter().filter(stays).collect()
     }
 
     /// Pairs for which `find` finds something, with what it found. Of two edges of one body the

@@ -78,7 +78,8 @@
 //!   [`tree_quality`](World::tree_quality), [`Options::mending`].
 //! - **Who may meet whom**: [`World::set_filter`], [`ignore`](World::ignore),
 //!   [`unignore`](World::unignore). For candidates also
-//!   [`set_vertex_groups`](World::set_vertex_groups).
+//!   [`set_vertex_groups`](World::set_vertex_groups). Parts of one body:
+//!   [`set_labels`](World::set_labels), [`Labels`].
 //! - **Broad phase**: [`BroadPhase`], [`World::set_loose_box`].
 //! - **Refusals**: [`Error`], [`ErrorKind`].
 //! - **Time and work**: [`Query::prepare`], [`World::statistics`], [`Statistics`],
@@ -122,6 +123,7 @@ mod held;
 mod hit_rows;
 mod ids;
 mod kernels;
+mod labels;
 mod mesh;
 mod options;
 mod queries;
@@ -144,6 +146,7 @@ pub use hit_rows::{HitRows, InRows};
 pub use ids::BodyId;
 #[doc(hidden)]
 pub use kernels::Instructions;
+pub use labels::Labels;
 pub use options::{BroadPhase, Degree, Options, Partition, Update};
 pub use pliant_exact::{End, Feature};
 pub use queries::hits::*;
@@ -164,7 +167,7 @@ pub use world::{
 /// signs. Every configuration of [`World`] must give these pairs. Cost: O(m^2) exact decisions for
 /// one body, O(m_a m_b) for two.
 pub mod reference {
-    pub use crate::all_pairs::{Moving, edges};
+    pub use crate::all_pairs::{Moving, edges, leave_out};
     pub use crate::world::reference::*;
 }
 

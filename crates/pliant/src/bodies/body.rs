@@ -21,6 +21,7 @@ use crate::geometry::{Aabb, Bounds, Origin};
 use crate::held::held;
 use crate::ids::{BodyId, TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, Instructions};
+use crate::labels::Labels;
 use crate::mesh::{Changed, EMPTY, Order, Topology};
 use crate::options::Options;
 use crate::queries::{BodyBoxes, Needs, Reach, StarredBody, Which};
@@ -157,6 +158,16 @@ impl<S: Coordinate> Body<S> {
     /// Rest shape in the caller's order, if there is one.
     pub(crate) fn rest(&self) -> Option<&[[S; 3]]> {
         self.filter.rest()
+    }
+
+    /// Sets the labels of triangles, or takes them away.
+    pub(crate) fn set_labels(&mut self, labels: Option<Labels>) -> Result<(), ErrorKind> {
+        self.filter.set_labels(labels, self.mesh.triangles().len())
+    }
+
+    /// Labels of triangles, if there are any.
+    pub(crate) fn labels(&self) -> Option<Labels<'_>> {
+        self.filter.labels()
     }
 
     /// Numbers the edges as another body with this mesh does.
@@ -407,6 +418,7 @@ impl<S: Coordinate> Body<S> {
     ) -> bool {
         let (order, threads) = (self.mesh.order(), (instructions, executor));
         self.filter.know_rest(order);
+        self.filter.know_labels(self.mesh.triangles(), order, None);
         self.thickness.know(order);
         let (shape, motion) = (&mut self.shape, &mut self.motion);
         shape.bring_into_tree_order(threads, order)
@@ -457,6 +469,8 @@ impl<S: Coordinate> Body<S> {
             return false;
         };
         self.filter.know_groups(order, elements);
+        let triangles = mesh.triangles();
+        self.filter.know_labels(triangles, order, Some(elements));
         let way = self.motion.on().zip(reach);
         let source = Grown {
             from: self.shape.view(order, origin),

@@ -1,13 +1,15 @@
 //! Collision filters of a body: membership and mask, environment, a loose box, groups of vertices,
-//! a rest shape.
+//! a rest shape, labels of triangles.
 
 use super::checks;
+use super::labels::BodyLabels;
 use super::per_vertex::PerVertex;
 use crate::error::ErrorKind;
 use crate::geometry::{Bounds, Points, Real};
 use crate::held::{self, Held};
+use crate::labels::Labels;
 use crate::mesh::{Elements, Order, Outcome};
-use crate::queries::Groups;
+use crate::queries::{Groups, LabelPairs};
 
 /// Filters of a body: which bodies it may meet, and which of its vertices may meet.
 pub(crate) struct Filter<S> {
@@ -19,6 +21,8 @@ pub(crate) struct Filter<S> {
     groups: Option<Box<PerVertex<u32, Groups>>>,
     /// Rest shape, in which elements that are close do not count as close. None if all count.
     rest: Option<Box<PerVertex<[S; 3], Points<S>>>>,
+    /// Labels of triangles, of which some pairs do not count as hits. None if all count.
+    labels: Option<Box<BodyLabels>>,
 }
 
 impl<S: Real> Filter<S> {
@@ -31,6 +35,7 @@ impl<S: Real> Filter<S> {
             loose: None,
             groups: None,
             rest: None,
+            labels: None,
         }
     }
 
@@ -38,6 +43,7 @@ impl<S: Real> Filter<S> {
         Self {
             groups: self.groups.as_ref().map(|groups| Box::new(groups.copy())),
             rest: self.rest.as_ref().map(|rest| Box::new(rest.copy())),
+            labels: self.labels.as_ref().map(|labels| Box::new(labels.copy())),
             ..*self
         }
     }
@@ -128,9 +134,44 @@ impl<S: Real> Filter<S> {
         self.rest.as_ref()?.known()
     }
 
-    /// Forgets what vertices were given, because the mesh is another: all meet.
-    pub(crate) fn forget_vertices(&mut self) {
-        (self.groups, self.rest) = (None, None);
+    /// Sets the label of every triangle, or takes all away.
+    pub(crate) fn set_labels(
+        &mut self,
+        labels: Option<Labels>,
+        triangles: usize,
+    ) -> Result<(), ErrorKind> {
+        let labels = labels.map(|labels| BodyLabels::new(labels, triangles));
+        self.labels = labels.transpose()?.map(Box::new);
+        Ok(())
+    }
+
+    /// Labels of triangles as the caller gave them.
+    pub(crate) fn labels(&self) -> Option<Labels<'_>> {
+        self.labels.as_ref().map(|labels| labels.callers())
+    }
+
+    /// Finds which pairs labels leave out: of triangles, and of elements if they are given.
+    pub(crate) fn know_labels(
+        &mut self,
+        triangles: &[[u32; 3]],
+        order: &Order,
+        elements: Option<&Elements>,
+    ) {
+        match (&mut self.labels, elements) {
+            (None, _) => {}
+            (Some(labels), None) => labels.know(triangles, order),
+            (Some(labels), Some(elements)) => labels.know_elements(triangles, order, elements),
+        }
+    }
+
+    /// Pairs that labels leave out, if there are labels and they are known.
+    pub(crate) fn known_labels(&self) -> Option<&LabelPairs> {
+        self.labels.as_ref()?.known()
+    }
+
+    /// Forgets what vertices and triangles were given, because the mesh is another: all meet.
+    pub(crate) fn forget_elements(&mut self) {
+        (self.groups, self.rest, self.labels) = (None, None, None);
     }
 
     /// Forgets what is in tree order, because the mesh gets another order.
@@ -141,10 +182,13 @@ impl<S: Real> Filter<S> {
         if let Some(rest) = &mut self.rest {
             rest.forget_tree_order();
         }
+        if let Some(labels) = &mut self.labels {
+            labels.forget_tree_order();
+        }
     }
 
-    /// Updates groups and rest shape after an edit. A vertex that was split from another has its
-    /// group and place; other new ones have no group, and rest where they were put.
+    /// Updates groups, rest shape and labels after an edit. A vertex that was split from another
+    /// has its group and place; other new ones have no group, and rest where they were put.
     pub(crate) fn follow(&mut self, outcome: &Outcome<S>) {
         if let Some(groups) = &mut self.groups {
             groups.follow(outcome, |_| 0);
@@ -152,11 +196,14 @@ impl<S: Real> Filter<S> {
         if let Some(rest) = &mut self.rest {
             rest.follow(outcome, |position| position);
         }
+        if let Some(labels) = &mut self.labels {
+            labels.follow(outcome);
+        }
     }
 }
 
 impl<S> Held for Filter<S> {
     fn held(&self) -> usize {
-        held::boxes(&self.groups) + held::boxes(&self.rest)
+        held::boxes(&self.groups) + held::boxes(&self.rest) + held::boxes(&self.labels)
     }
 }

@@ -10,6 +10,7 @@
 //! | `parts` | trees, each over a run of triangles |
 //! | `rebuild` | fresh trees for bodies whose tree has decayed |
 //! | `filter` | filters: which bodies and vertices may meet |
+//! | `labels` | labels of the triangles, which leave pairs out |
 //! | `thickness` | thickness of the vertices |
 //! | `per_vertex` | values that the caller gives vertices, through edits and new orders |
 //! | `checks` | refusal of bad positions |
@@ -22,6 +23,7 @@ mod build;
 mod checks;
 mod debug_view;
 mod filter;
+mod labels;
 mod list;
 mod mesh;
 mod motion;

@@ -19,8 +19,8 @@ pub(crate) struct Request<'q> {
     pub(crate) question: Option<Question<'q>>,
     /// Margin round each element for candidates, largest distance for close pairs; else 0.
     pub(crate) within: f64,
-    /// Whether close pairs are left out that are as close in the rest shape of their one body.
-    pub(crate) heeds_rest: bool,
+    /// Whether close pairs are left out by the labels and the rest shape of their one body.
+    pub(crate) leaves_out: bool,
     /// Width that intervals of times may have, for impacts; other kinds ignore it.
     pub(crate) width: f64,
     /// Only kind of contact that is asked for, if not all are.
@@ -35,7 +35,7 @@ impl Request<'_> {
             most: usize::MAX,
             question: None,
             within: 0.0,
-            heeds_rest: true,
+            leaves_out: true,
             width: WIDTH,
             only: None,
         }

@@ -5,6 +5,7 @@
 //! for every task, a `dyn` [`LeafWork`]. So it is compiled once for `f32` and once for `f64`,
 //! whatever kinds there are.
 
+use super::labels::LabelPairs;
 use super::near::{NearElements, Thicknesses, Which};
 use crate::geometry::{Aabb, Points, Shape};
 use crate::held::Held;
@@ -44,8 +45,9 @@ pub(crate) struct Needs {
     /// Whether things are no hits that are further apart than twice `grows_by`, even where their
     /// boxes overlap.
     pub(crate) culls_by_capsules: bool,
-    /// Whether what is as close in the rest shape of its one body is no hit.
-    pub(crate) heeds_rest: bool,
+    /// Whether pairs are no hits that their one body leaves out: by its labels, or because they are
+    /// as close in its rest shape.
+    pub(crate) leaves_out: bool,
 }
 
 impl Needs {
@@ -57,7 +59,7 @@ impl Needs {
         counts_thickness: 0.0,
         reach: None,
         culls_by_capsules: true,
-        heeds_rest: false,
+        leaves_out: true,
     };
 
     /// Whether the test gets triangles, not runs of them.
@@ -255,9 +257,11 @@ pub(crate) struct LeafTest<'q, S> {
     /// Elements and their boxes, for kinds that test runs.
     pub(crate) elements: [Option<NearElements<'q>>; 2],
     pub(crate) thickness: Thicknesses<'q>,
-    /// Positions in the rest shape, if both bodies are one that has a rest shape and the kind heeds
-    /// it.
+    /// Positions in the rest shape, if both bodies are one that has it, and the kind leaves pairs
+    /// out.
     pub(crate) rest: Option<&'q Points<S>>,
+    /// Pairs that labels leave out, likewise. Kinds that test triangles get none of these.
+    pub(crate) labels: Option<&'q LabelPairs>,
     /// Whether both bodies are one.
     pub(crate) is_one_body: bool,
     /// Whether both trees are one, so that equal numbers of runs are the same run.

@@ -2,7 +2,8 @@
 //!
 //! Update, traversal, sorting and the calls of users are the same for every kind. A kind defines
 //! the source of its boxes, the test of two leaves, its rule for neighbours in the mesh, and its
-//! hit. `door` is the trait by which the traversal sees a kind, and `near` holds boxes of elements.
+//! hit. `door` is the trait by which the traversal sees a kind. `near` holds boxes of elements, and
+//! `labels` what a body leaves out.
 //!
 //! | folder | kind | boxes |
 //! |---|---|---|
@@ -22,6 +23,7 @@ mod crossing_edges;
 mod door;
 mod impacts;
 mod intersections;
+mod labels;
 mod near;
 
 /// Hits of every kind, as callers get them. The crate exports them.
@@ -50,6 +52,7 @@ pub(crate) use door::{
 pub(crate) use hits::*;
 pub(crate) use impacts::{Earliest, First, Impacts, LIMIT};
 pub(crate) use intersections::Intersections;
+pub(crate) use labels::LabelPairs;
 pub(crate) use near::{
     Groups, NearBoxes, NearElements, Removed, Thickness, Thicknesses, Which, most,
 };

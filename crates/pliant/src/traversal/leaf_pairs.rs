@@ -163,7 +163,8 @@ impl LeafTests {
         }
     }
 
-    /// Has the kind decide the candidates, without triangles that were removed from their mesh.
+    /// Has the kind decide the candidates, without triangles that were removed from their mesh, and
+    /// pairs that labels leave out.
     fn decide<S: Coordinate>(
         &mut self,
         context: &Context<S>,
@@ -176,6 +177,9 @@ impl LeafTests {
                 candidates.retain(|pair| !removed.has(pair[which]));
             }
         }
+        if let Some(labels) = leaf_test.labels {
+            candidates.retain(|&pair| !labels.leave_out(pair));
+        }
         work.test(leaf_test, Batch::Triangles(candidates));
     }
 }
@@ -183,6 +187,7 @@ impl LeafTests {
 /// Context of a test of leaves, for the kind of query.
 fn leaf_test<'q, S: Coordinate>(context: &Context<'q, S>) -> LeafTest<'q, S> {
     let [a, b] = context.pair.sides().map(|side| side.read);
+    let leaves_out = context.needs.leaves_out && context.pair.is_one_body();
     LeafTest {
         instructions: context.instructions,
         interrupt: context.interrupt,
@@ -195,9 +200,8 @@ fn leaf_test<'q, S: Coordinate>(context: &Context<'q, S>) -> LeafTest<'q, S> {
             sides: [a.thickness, b.thickness],
             counts: context.needs.counts_thickness,
         },
-        rest: a
-            .rest
-            .filter(|_| context.needs.heeds_rest && context.pair.is_one_body()),
+        rest: a.rest.filter(|_| leaves_out),
+        labels: a.labels.filter(|_| leaves_out),
         is_one_body: context.pair.is_one_body(),
         is_one_tree: context.pair.is_one_tree(),
     }

@@ -4,7 +4,7 @@ use crate::geometry::Points;
 use crate::ids::{BodyId, NodeId};
 use crate::kernels::Coordinate;
 use crate::mesh::Order;
-use crate::queries::{CallerIds, NearElements, Needs, OwnEdges, Removed, Thickness};
+use crate::queries::{CallerIds, LabelPairs, NearElements, Needs, OwnEdges, Removed, Thickness};
 use crate::tree::{BoxSet, BoxedTree, Source, Tree};
 use crate::update::Refitted;
 
@@ -23,6 +23,8 @@ pub(crate) struct Read<'t, S> {
     pub(crate) thickness: Option<&'t Thickness>,
     /// Positions in the rest shape, if the body has one.
     pub(crate) rest: Option<&'t Points<S>>,
+    /// Pairs that the body's labels leave out, if it has labels.
+    pub(crate) labels: Option<&'t LabelPairs>,
     /// Triangles that were removed from the mesh and are still in the tree, if there are any.
     pub(crate) removed: Option<Removed<'t>>,
 }

@@ -117,7 +117,7 @@ impl<S: Scalar> World<S> {
         };
 
         let close = self.close_vertex_triangle_pairs(of, cut_off);
-        let close = close.heedless_of_rest().interrupt(question);
+        let close = close.leaving_nothing_out().interrupt(question);
         let _ = close.visit_some(|close| {
             for close in close {
                 let pair = close.pair;
@@ -130,7 +130,7 @@ impl<S: Scalar> World<S> {
             ControlFlow::<()>::Continue(())
         })?;
         let close = self.close_edge_edge_pairs(of, cut_off);
-        let close = close.heedless_of_rest().interrupt(question);
+        let close = close.leaving_nothing_out().interrupt(question);
         let _ = close.visit_some(|close| {
             for close in close {
                 let pair = close.pair;

@@ -1,5 +1,5 @@
-//! Filters, environments, ignored pairs, vertex groups, rest shapes, thickness and loose boxes: who
-//! may meet whom, and from how far.
+//! Filters, environments, ignored pairs, vertex groups, rest shapes, labels, thickness and loose
+//! boxes: who may meet whom, and from how far.
 
 use super::handle::World;
 use super::scalar::Scalar;
@@ -7,6 +7,7 @@ use super::state::about;
 use crate::error::Error;
 use crate::geometry::Bounds;
 use crate::ids::BodyId;
+use crate::labels::Labels;
 
 /// # Settings: who may meet whom
 impl<S: Scalar> World<S> {
@@ -186,6 +187,63 @@ impl<S: Scalar> World<S> {
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn rest_positions(&self, body: BodyId) -> Result<Option<&[[S; 3]]>, Error> {
         Ok(self.state().body(body)?.rest())
+    }
+
+    /// Labels the triangles of a body: pairs of equal or neighbouring labels are left out of its
+    /// intersections and close pairs with itself. `None` takes the labels away.
+    ///
+    /// They are for the parts of a character: upper and lower arm always touch at the elbow. Labels
+    /// are neighbours if a vertex has triangles of both, or if
+    /// [`neighbours`](Labels::neighbours) says so. A vertex or an edge has the labels of all its
+    /// triangles. A pair of elements is left out if each label of one is equal or next to each of
+    /// the other.
+    ///
+    /// Left out are pairs of [`intersections`](Self::intersections), [`contacts`](Self::contacts),
+    /// and close pairs. Other questions look past labels: crossing edges, adjacent triangles,
+    /// candidates, impacts, free steps and clearance.
+    ///
+    /// They stay with the body until [`set_mesh`](Self::set_mesh) gives it another mesh. A triangle
+    /// that an [`Edit`](crate::Edit) adds is [`NONE`](Labels::NONE), which is left out of nothing;
+    /// others keep their labels. Labels of empty triangles are not looked at.
+    ///
+    /// ```
+    /// # use pliant::{Labels, Selection, World};
+    /// // A strip of six triangles that is folded flat onto itself: 0 and 1 meet 2 to 5.
+    /// let strip = [[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4], [4, 5, 6], [5, 7, 6]];
+    /// let fold = [0.0, 1.0, 0.2, 0.8].map(|x| [[x, 0.0, 0.0], [x, 1.0, 0.0]]);
+    /// let mut world = World::<f64>::new();
+    /// let arm = world.add(&strip, fold.as_flattened())?;
+    /// let itself = Selection::Within(arm);
+    /// assert_eq!(world.intersections(itself).all()?.len(), 6);
+    /// // Upper arm, lower arm, hand: the hand still meets the upper arm.
+    /// let parts = [0, 0, 1, 1, 2, 2];
+    /// world.set_labels(arm, Some(Labels { of_triangles: &parts, neighbours: None }))?;
+    /// let hits = world.intersections(itself).all()?;
+    /// let of = |triangle: u32| parts[triangle as usize];
+    /// assert!(hits.iter().all(|hit| [of(hit.triangle_a), of(hit.triangle_b)] == [0, 2]));
+    /// assert_eq!(hits.len(), 4);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// Cost: O(m). The next question costs O(m log m), as it does after each edit.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody),
+    /// [`WrongLength`](crate::ErrorKind::WrongLength).
+    pub fn set_labels(&mut self, body: BodyId, labels: Option<Labels>) -> Result<(), Error> {
+        let found = self.state_mut().common.bodies.get_mut(body)?;
+        found.set_labels(labels).map_err(about(body))
+    }
+
+    /// Labels of the triangles of a body, as [`set_labels`](Self::set_labels) sets them; `None` if
+    /// it has none.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn labels(&self, body: BodyId) -> Result<Option<Labels<'_>>, Error> {
+        Ok(self.state().body(body)?.labels())
     }
 
     /// Makes a body thick: every vertex is a ball of this radius, in the unit of the positions.

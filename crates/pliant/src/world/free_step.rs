@@ -143,11 +143,13 @@ impl<S: Scalar> World<S> {
         }
         let close = self
             .close_vertex_triangle_pairs(of, distance)
-            .heedless_of_rest();
+            .leaving_nothing_out();
         if let Some(pair) = least(close.interrupt(question), |close| Some(close.pair))? {
             return Ok(Some(InContact::VertexTriangle(pair)));
         }
-        let close = self.close_edge_edge_pairs(of, distance).heedless_of_rest();
+        let close = self
+            .close_edge_edge_pairs(of, distance)
+            .leaving_nothing_out();
         let pair = least(close.interrupt(question), |close| Some(close.pair))?;
         Ok(pair.map(InContact::EdgeEdge))
     }

@@ -34,8 +34,8 @@ use std::sync::Arc;
 ///   [`split`](Self::split), [`fuse`](Self::fuse), [`weld`](Self::weld);
 /// - **Settings**: [`set_filter`](Self::set_filter), [`ignore`](Self::ignore),
 ///   [`set_environment`](Self::set_environment), [`set_vertex_groups`](Self::set_vertex_groups),
-///   [`set_rest_positions`](Self::set_rest_positions), [`set_thickness`](Self::set_thickness),
-///   [`set_loose_box`](Self::set_loose_box);
+///   [`set_rest_positions`](Self::set_rest_positions), [`set_labels`](Self::set_labels),
+///   [`set_thickness`](Self::set_thickness), [`set_loose_box`](Self::set_loose_box);
 /// - **Looking inside**: [`triangles`](Self::triangles), [`positions`](Self::positions),
 ///   [`tree_boxes`](Self::tree_boxes), [`statistics`](Self::statistics).
 pub struct World<S: Scalar> {

@@ -7,6 +7,7 @@ use super::scalar::Scalar;
 use crate::edit::Edited;
 use crate::error::{Error, ErrorKind};
 use crate::ids::BodyId;
+use crate::labels::Labels;
 use crate::mesh::{self, Nearness};
 use crate::threads::{Interrupt, Question};
 use pliant_exact::distance::are_points_within;
@@ -57,10 +58,11 @@ impl<S: Scalar> World<S> {
     /// several the first. Returns the new bodies in the order of their first triangles. If all is
     /// one component there are none, and nothing has changed.
     ///
-    /// Pieces inherit filter, environment, loose box, vertex groups, rest shape, thickness, and
-    /// whom the body [ignores](Self::ignore). If it ignores itself, the pieces ignore each other
-    /// and it. So [`Everything`](crate::Selection::Everything) finds what it found. A motion of the
-    /// body ends, as by [`apply`](Self::apply). Vertices that no triangle uses stay with it.
+    /// Pieces inherit filter, environment, loose box, vertex groups, rest shape, labels, thickness,
+    /// and whom the body [ignores](Self::ignore). If it ignores itself, the pieces ignore each other
+    /// and it. So [`Everything`](crate::Selection::Everything) finds what it found, but for rest
+    /// shape and labels, which say nothing of two bodies. A motion of the body ends, as by
+    /// [`apply`](Self::apply). Vertices that no triangle uses stay with it.
     ///
     /// ```
     /// use pliant::World;
@@ -93,7 +95,8 @@ impl<S: Scalar> World<S> {
     /// [ignores](Self::ignore); vertices keep their groups and thickness. If either has a rest
     /// shape, it has one, in which the other rests as it is. If both had a loose box, it then has
     /// one around both; else it has none. Motions of either end, as by [`apply`](Self::apply).
-    /// Nothing is welded: see [`weld`](Self::weld).
+    /// Triangles keep their [labels](Self::set_labels). If both have some, and only one says which
+    /// are neighbours, `b` loses its own. Nothing is welded: see [`weld`](Self::weld).
     ///
     /// ```
     /// use pliant::World;
@@ -201,6 +204,9 @@ impl<S: Scalar> World<S> {
         let groups = self.vertex_groups(body)?;
         let rest = self.rest_positions(body)?.map(<[_]>::to_vec);
         let thickness = self.thickness(body)?;
+        let labels = self.labels(body)?;
+        let neighbours = labels.and_then(|it| it.neighbours).map(<[_]>::to_vec);
+        let labels = labels.map(|labels| labels.of_triangles.to_vec());
         let mut edit = self.edit(body)?;
         let mut number_of = vec![u32::MAX; positions.len()];
         for piece in pieces {
@@ -224,6 +230,14 @@ impl<S: Scalar> World<S> {
             if let Some(rest) = &rest {
                 let of_piece = piece.vertices.iter().map(|&it| rest[it as usize]);
                 self.set_rest_positions(piece.body, Some(&of_piece.collect::<Vec<_>>()))?;
+            }
+            if let Some(labels) = &labels {
+                let of_piece = piece.triangles.iter();
+                let of_piece = Labels {
+                    of_triangles: &of_piece.map(|&it| labels[it as usize]).collect::<Vec<_>>(),
+                    neighbours: neighbours.as_deref(),
+                };
+                self.set_labels(piece.body, Some(of_piece))?;
             }
         }
         self.apply(&edit).map(drop)
@@ -263,6 +277,11 @@ impl<S: Scalar> World<S> {
                 Some(rest)
             }
         };
+        let labels = fused_labels(
+            [self.labels(a)?, self.labels(b)?],
+            self.triangles(a)?.len(),
+            &are_triangles,
+        );
         let mut thickness = self.thickness(a)?;
         thickness.extend(kept(&self.thickness(b)?, &are_vertices));
         let have_groups = groups.iter().chain(&of_b).any(|&group| group != 0);
@@ -282,6 +301,14 @@ impl<S: Scalar> World<S> {
         self.set_vertex_thickness(a, &thickness)?;
         if rest.is_some() {
             self.set_rest_positions(a, rest.as_deref())?;
+        }
+        if let Some((of_triangles, neighbours)) = &labels {
+            let (of_triangles, neighbours) = (&of_triangles[..], neighbours.as_deref());
+            let labels = Labels {
+                of_triangles,
+                neighbours,
+            };
+            self.set_labels(a, Some(labels))?;
         }
         self.remove(b)?;
         Ok(fused)
@@ -382,6 +409,32 @@ impl<S: Scalar> Inherited<S> {
         }
         Ok(())
     }
+}
+
+/// Labels of a body of so many triangles, then of another's that are there, and all neighbours.
+///
+/// If both have labels, and only one says which are neighbours, the other body loses its own.
+fn fused_labels(
+    [of_a, of_b]: [Option<Labels>; 2],
+    triangles: usize,
+    are_there: &[bool],
+) -> Option<(Vec<u32>, Option<Vec<[u32; 2]>>)> {
+    let mut of_b = of_b;
+    if let [Some(a), Some(b)] = [of_a, of_b]
+        && a.neighbours.is_some() != b.neighbours.is_some()
+    {
+        of_b = None;
+    }
+    of_a.or(of_b)?;
+    let of_triangles = |labels: Option<Labels>, count| {
+        labels.map_or_else(|| vec![Labels::NONE; count], |it| it.of_triangles.to_vec())
+    };
+    let mut all = of_triangles(of_a, triangles);
+    all.extend(kept(&of_triangles(of_b, are_there.len()), are_there));
+    let neighbours = [of_a, of_b].into_iter().flatten();
+    let neighbours = neighbours.map(|labels| labels.neighbours.map(<[_]>::to_vec));
+    let neighbours = neighbours.collect::<Option<Vec<_>>>();
+    Some((all, neighbours.map(|lists| lists.concat())))
 }
 
 /// Keeps the things whose flag is set.

@@ -47,9 +47,9 @@ impl<'w, H: Copy> Query<'w, H> {
         self
     }
 
-    /// Has rest shapes leave nothing out.
-    pub(super) fn heedless_of_rest(mut self) -> Self {
-        self.request.heeds_rest = false;
+    /// Has labels and rest shapes leave nothing out.
+    pub(super) fn leaving_nothing_out(mut self) -> Self {
+        self.request.leaves_out = false;
         self
     }
 

@@ -4,8 +4,8 @@
 
 use crate::common::{Lcg, every_configuration, share, sheet};
 use pliant::{
-    AdjacentContact, BodyId, ContactKind, CrossingEdge, EdgeEdge, Edit, Edited, Options, Pair,
-    Scalar, Selection, VertexTriangle, World,
+    AdjacentContact, BodyId, ContactKind, CrossingEdge, EdgeEdge, Edit, Edited, Labels, Options,
+    Pair, Scalar, Selection, VertexTriangle, World,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -286,8 +286,18 @@ fn check<S: Number>(world: &mut World<S>, known: &mut [Known<S>], options: Optio
     world.validate().unwrap();
     let compact: Vec<Compact<S>> = known.iter().map(Known::compact).collect();
     let mut fresh = World::with_options(options);
-    for body in &compact {
+    for (body, known) in compact.iter().zip(&*known) {
         let id = fresh.add(&body.triangles, &body.positions).unwrap();
+        if let Some(labels) = world.labels(known.id).unwrap() {
+            let all = body.known_triangles.iter();
+            let all: Vec<u32> = all.map(|&it| labels.of_triangles[it as usize]).collect();
+            let of_triangles = &all;
+            let labels = Labels {
+                of_triangles,
+                ..labels
+            };
+            fresh.set_labels(id, Some(labels)).unwrap();
+        }
         fresh.set_vertex_groups(id, &body.groups).unwrap();
         fresh.set_rest_positions(id, body.rest.as_deref()).unwrap();
         if let Some(end) = &body.end {
@@ -614,6 +624,23 @@ fn life<S: Number>(options: Options, seed: u64, edits: usize) -> usize {
                 body.rest = (random.below(3) > 0).then_some(rows);
                 let rest = body.rest.as_deref();
                 world.set_rest_positions(id, rest).unwrap();
+            }
+            7 if random.below(3) == 0 => {
+                let count = world.triangles(id).unwrap().len();
+                let mut label = || match random.below(5) {
+                    0 => Labels::NONE,
+                    label => label,
+                };
+                let of_triangles: Vec<u32> = (0..count).map(|_| label()).collect();
+                let pairs = [[label(), label()]];
+                let neighbours = (label() > 2).then_some(&pairs[..]);
+                let labels = Labels {
+                    of_triangles: &of_triangles,
+                    neighbours,
+                };
+                world
+                    .set_labels(id, (label() != 1).then_some(labels))
+                    .unwrap();
             }
             5 if random.below(3) == 0 => {
                 other_mesh(&mut world, &mut known[which], &mut random);

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A folder, or a file of the crate's root, and the folders that it may use.
-const LAYERS: [(&str, &[&str]); 26] = [
+const LAYERS: [(&str, &[&str]); 27] = [
     ("held", &[]),
     ("ids", &[]),
     ("options", &[]),
@@ -18,6 +18,7 @@ const LAYERS: [(&str, &[&str]); 26] = [
     ("error", &["ids"]),
     ("edit", &["ids"]),
     ("selection", &["ids"]),
+    ("labels", &[]),
     ("geometry", &["held", "ids"]),
     ("kernels", &["held", "ids", "geometry"]),
     (
@@ -50,6 +51,7 @@ const LAYERS: [(&str, &[&str]); 26] = [
     (
         "queries",
         &[
+            "labels",
             "held",
             "ids",
             "statistics",
@@ -79,6 +81,7 @@ const LAYERS: [(&str, &[&str]); 26] = [
     (
         "bodies",
         &[
+            "labels",
             "held",
             "ids",
             "options",
@@ -115,10 +118,14 @@ const LAYERS: [(&str, &[&str]); 26] = [
             "bodies",
         ],
     ),
-    ("all_pairs", &["bodies", "error", "geometry", "mesh"]),
+    (
+        "all_pairs",
+        &["bodies", "error", "geometry", "labels", "mesh"],
+    ),
     (
         "world",
         &[
+            "labels",
             "held",
             "ids",
             "options",

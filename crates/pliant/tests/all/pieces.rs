@@ -1,7 +1,7 @@
 //! Splitting into components, fusing, cutting and welding: no hit is lost, and numbers lead back.
 
 use crate::common::{Lcg, sheet};
-use pliant::{BodyId, ErrorKind, Pair, Selection, World};
+use pliant::{BodyId, ErrorKind, Labels, Pair, Selection, World};
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -46,6 +46,13 @@ fn split_and_fused_again_it_finds_what_it_found() {
     world.set_environment(body, 7).unwrap();
     let rest: Vec<[f32; 3]> = positions.iter().map(|&[x, y, z]| [z, x, y]).collect();
     world.set_rest_positions(body, Some(&rest)).unwrap();
+    // Each is left out of nothing, so that what is found is found by pieces.
+    let neighbours = &[[0, 1], [2, 3]][..];
+    let labels = Labels {
+        of_triangles: &vec![Labels::NONE; triangles.len()],
+        neighbours: Some(neighbours),
+    };
+    world.set_labels(body, Some(labels)).unwrap();
     let groups: Vec<u32> = (0..positions.len() as u32).map(|it| it % 5).collect();
     world.set_vertex_groups(body, &groups).unwrap();
     let everywhere = Some(([-9.0; 3], [9.0; 3]));
@@ -85,6 +92,9 @@ fn split_and_fused_again_it_finds_what_it_found() {
         let of_piece = piece.vertices.iter().map(|&it| rest[it as usize]);
         let found = world.rest_positions(piece.body).unwrap().unwrap();
         assert!(of_piece.eq(found.iter().copied()));
+        let labels = world.labels(piece.body).unwrap().unwrap();
+        assert_eq!(labels.of_triangles.len(), piece.triangles.len());
+        assert_eq!(labels.neighbours, Some(neighbours));
         assert_eq!(world.filter(piece.body), Ok((0b110, 0b111)));
         assert_eq!(world.environment(piece.body), Ok(7));
         assert_eq!(world.loose_box(piece.body), Ok(everywhere));

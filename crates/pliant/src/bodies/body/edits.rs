@@ -82,7 +82,7 @@ impl<S: Coordinate> Body<S> {
             new.mesh.succeed(&self.mesh);
             new.shape.set_version(self.shape.version() + 1);
             std::mem::swap(&mut new.filter, &mut self.filter);
-            new.filter.forget_vertices();
+            new.filter.forget_elements();
             std::mem::swap(&mut new.thickness, &mut self.thickness);
             new.thickness.spread(positions.len());
             *self = new;
@@ -97,7 +97,7 @@ impl<S: Coordinate> Body<S> {
             split_from: BTreeMap::new(),
             emptied: Vec::new(),
         };
-        self.filter.forget_vertices();
+        self.filter.forget_elements();
         self.thickness.spread(vertices);
         self.mesh.fill();
         self.make(&outcome, options);

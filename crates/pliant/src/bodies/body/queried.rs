@@ -9,7 +9,9 @@ use crate::geometry::{Origin, Points};
 use crate::ids::BodyId;
 use crate::kernels::Coordinate;
 use crate::mesh::{Elements, Order};
-use crate::queries::{Groups, NearBoxes, NearElements, Needs, OwnEdges, Removed, Thickness};
+use crate::queries::{
+    Groups, LabelPairs, NearBoxes, NearElements, Needs, OwnEdges, Removed, Thickness,
+};
 use crate::traversal::Read;
 use crate::tree::{Source, Tree};
 
@@ -23,6 +25,7 @@ pub(super) struct Queried<'b, S> {
     elements: Option<&'b Elements>,
     groups: Option<&'b Groups>,
     rest: Option<&'b Points<S>>,
+    labels: Option<&'b LabelPairs>,
     thickness: Option<&'b Thickness>,
     removed: Option<Removed<'b>>,
 }
@@ -56,6 +59,7 @@ impl<'b, S: Coordinate> Queried<'b, S> {
             elements: mesh.known_elements().filter(|_| !needs.triangles()),
             groups: filter.known_groups(),
             rest: filter.known_rest(),
+            labels: filter.known_labels(),
             thickness: thickness.known(),
             removed: mesh.removed(),
         }
@@ -79,6 +83,7 @@ impl<'b, S: Coordinate> Queried<'b, S> {
                 removed: self.removed,
             }),
             rest: self.rest,
+            labels: self.labels,
             thickness: self.thickness,
             removed: self.removed,
         }

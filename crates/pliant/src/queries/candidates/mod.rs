@@ -135,7 +135,7 @@ impl Margin {
             counts_thickness: self.counts_thickness,
             reach: Some(Reach::End),
             culls_by_capsules: false,
-            heeds_rest: false,
+            leaves_out: false,
         }
     }
 

@@ -7,8 +7,8 @@ use crate::ids::TreeVertex;
 use crate::kernels::closest::{FourCorners, decide_eight, of_elements, rounded_outward};
 use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
 use crate::queries::{
-    Batch, CallerIds, EdgeEdgeCandidates, FoundBy, Kind, LeafTest, Margin, Needs, Thicknesses,
-    VertexTriangleCandidates,
+    Batch, CallerIds, EdgeEdgeCandidates, FoundBy, Kind, LabelPairs, LeafTest, Margin, Needs,
+    Thicknesses, VertexTriangleCandidates,
 };
 use pliant_exact::Length;
 use pliant_exact::distance::are_within_distance;
@@ -18,21 +18,21 @@ use pliant_exact::distance::are_within_distance;
 pub(crate) struct Close<K> {
     candidates: K,
     distance: f64,
-    heeds_rest: bool,
+    leaves_out: bool,
 }
 
 impl<K> Close<K> {
     /// Close pairs within a distance, finite and at least 0. `candidates` makes the kind of
-    /// candidates for a margin. `heeds_rest` leaves out pairs that are as close in a rest shape.
+    /// candidates for a margin. With `leaves_out`, a body's labels and rest shape leave pairs out.
     pub(crate) fn within(
         distance: f64,
-        heeds_rest: bool,
+        leaves_out: bool,
         candidates: impl Fn(Margin) -> K,
     ) -> Self {
         Self {
             candidates: candidates(Margin::new(half(distance))),
             distance,
-            heeds_rest,
+            leaves_out,
         }
     }
 }
@@ -45,6 +45,9 @@ pub(crate) trait ElementCandidates:
     /// either edge.
     fn vertices(leaves: &LeafTest<Self::Scalar>, hit: [u32; 2])
     -> Option<[(usize, TreeVertex); 4]>;
+
+    /// Whether labels leave out a candidate.
+    fn are_left_out(labels: &LabelPairs, hit: [u32; 2]) -> bool;
 
     /// Positions of the four corners of a candidate in the present shapes.
     #[inline(always)]
@@ -64,6 +67,19 @@ pub(crate) trait ElementCandidates:
     ) -> Option<FourCorners<'q, Self::Scalar>> {
         Self::corners(leaves, hit)
     }
+}
+
+/// Moves the items for which `stays` holds to the front, in order, and returns them.
+fn stay<T: Copy>(items: &mut [T], stays: impl Fn(&T) -> bool) -> &mut [T] {
+    let mut kept = 0;
+    for place in 0..items.len() {
+        let item = items[place];
+        if stays(&item) {
+            items[kept] = item;
+            kept += 1;
+        }
+    }
+    &mut items[..kept]
 }
 
 /// The distance at which two elements are near, by their corners, from that of elements without
@@ -123,7 +139,7 @@ where
     fn needs(&self) -> Needs {
         Needs {
             culls_by_capsules: true,
-            heeds_rest: self.heeds_rest,
+            leaves_out: self.leaves_out,
             ..self.candidates.needs()
         }
     }
@@ -134,6 +150,10 @@ where
         self.candidates.test(leaves, batch, found);
         let exact = &mut found.statistics.exact_decisions;
         let new = found.hits.tail_mut(before);
+        let new = match leaves.labels {
+            Some(labels) => stay(new, |&hit| !K::are_left_out(labels, hit)),
+            None => new,
+        };
         let positions = leaves.shapes.map(|shape| shape.positions);
         let mut keep = |new: &mut [[u32; 2]], positions: [&Points<K::Scalar>; 2], close| {
             let shape = (positions, close);
@@ -233,6 +253,11 @@ impl<S: Coordinate> ElementCandidates for VertexTriangleCandidates<S> {
         let [a, b, c] = leaves.shapes[other].triangles[triangle.index()];
         Some([(side, vertex), (other, a), (other, b), (other, c)])
     }
+
+    fn are_left_out(labels: &LabelPairs, hit: [u32; 2]) -> bool {
+        let (_, vertex, triangle) = Self::sides_of(hit);
+        labels.leave_out_vertex(vertex, triangle)
+    }
 }
 
 impl<S: Coordinate> ElementCandidates for EdgeEdgeCandidates<S> {
@@ -240,6 +265,10 @@ impl<S: Coordinate> ElementCandidates for EdgeEdgeCandidates<S> {
     fn vertices(leaves: &LeafTest<S>, hit: [u32; 2]) -> Option<[(usize, TreeVertex); 4]> {
         let [[a0, a1], [b0, b1]] = Self::ends(leaves, hit)?;
         Some([(0, a0), (0, a1), (1, b0), (1, b1)])
+    }
+
+    fn are_left_out(labels: &LabelPairs, hit: [u32; 2]) -> bool {
+        labels.leave_out_edges(hit)
     }
 
     fn callers_corners<'q>(leaves: &LeafTest<'q, S>, hit: [u32; 2]) -> Option<FourCorners<'q, S>> {

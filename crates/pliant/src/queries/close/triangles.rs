@@ -244,7 +244,6 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
             box_set: OF_GROWN_SHAPES,
             grows_by: Some(self.margin.grown_by()),
             counts_thickness: 1.0,
-            heeds_rest: true,
             ..Needs::TRIANGLES
         }
     }

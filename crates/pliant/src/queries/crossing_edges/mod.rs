@@ -41,7 +41,11 @@ impl<S: Coordinate> Kind for CrossingEdges<S> {
     shows_hits!();
 
     fn needs(&self) -> Needs {
-        Needs::TRIANGLES
+        Needs {
+            // An edge may cross what one of its triangles leaves out.
+            leaves_out: false,
+            ..Needs::TRIANGLES
+        }
     }
 
     fn test(&self, leaves: &LeafTest<S>, batch: Batch, found: &mut FoundBy<Self>) {

@@ -93,12 +93,12 @@ ask!(
     close_vertex_triangle.all_measured,
     |request| {
         let candidates = VertexTriangleCandidates::<S>::within;
-        Close::within(request.distance()?, request.heeds_rest, candidates)
+        Close::within(request.distance()?, request.leaves_out, candidates)
     }
 );
 ask!(CloseEdgeEdge, close_edge_edge.all_measured, |request| {
     let candidates = EdgeEdgeCandidates::<S>::within;
-    Close::within(request.distance()?, request.heeds_rest, candidates)
+    Close::within(request.distance()?, request.leaves_out, candidates)
 });
 impl InBodies for VertexTriangle {
     fn bodies(&self) -> [BodyId; 2] {

@@ -24,7 +24,7 @@ pub fn close_vertex_triangle_pairs<S: Scalar>(
 }
 
 /// Pairs (vertex, triangle) of one body at most `distance` apart, but not in the rest shape,
-/// sorted.
+/// without pairs that labels leave out, sorted.
 ///
 /// Cost: O(n m).
 ///
@@ -35,7 +35,9 @@ pub fn self_close_vertex_triangle_pairs<S: Scalar>(
     body: &Moving<S>,
     distance: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    ElementPairs::VerticesAndTriangles.that(body, None, close_in_one(distance))
+    let elements = ElementPairs::VerticesAndTriangles;
+    let close = elements.that(body, None, close_in_one(distance))?;
+    Ok(elements.that_stay(body, close))
 }
 
 /// Pairs (edge of a, edge of b) at most `distance` apart, sorted, as in
@@ -53,7 +55,7 @@ pub fn close_edge_edge_pairs<S: Scalar>(
 }
 
 /// Pairs (smaller edge, larger edge) of one body at most `distance` apart, but not in the rest
-/// shape, sorted. Cost: O(m^2).
+/// shape, without pairs that labels leave out, sorted. Cost: O(m^2).
 ///
 /// # Errors
 ///
@@ -62,7 +64,9 @@ pub fn self_close_edge_edge_pairs<S: Scalar>(
     body: &Moving<S>,
     distance: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    ElementPairs::EdgesAndEdges.that(body, None, close_in_one(distance))
+    let elements = ElementPairs::EdgesAndEdges;
+    let close = elements.that(body, None, close_in_one(distance))?;
+    Ok(elements.that_stay(body, close))
 }
 
 /// Whether two elements of two bodies are at most `distance` and their thickness apart in the

@@ -125,9 +125,13 @@ impl<S: Coordinate> State<S> {
         let Some(last) = self.witnesses.get(bodies) else {
             return Ok(None);
         };
+        let both = [self.body(bodies[0])?, self.body(bodies[1])?];
+        // Labels are known only where shapes are brought into tree order.
+        if bodies[0] == bodies[1] && both[0].labels().is_some() {
+            return Ok(None);
+        }
         let interrupt = Interrupt::new(request.question);
         let mut statistics = self.common.done_early;
-        let both = [self.body(bodies[0])?, self.body(bodies[1])?];
         let found = near(both, last, &interrupt, &mut statistics);
         let pair = found.map(|found| pair_of(both, found));
         if let Some(found) = found {

@@ -214,15 +214,28 @@ pub(crate) fn floats(given: &Any<'_>, [name, what]: [&str; 2]) -> Result<Vec<f64
 
 /// Copies edges (k, 2) of any integer type: the two vertices of each.
 pub(crate) fn edges_of(edges: &Any<'_>) -> Result<Vec<[u32; 2]>> {
-    let array = as_numpy(edges, "edges")?;
+    twos(
+        edges,
+        ["edges", "vertices", "the numbers of their vertices"],
+    )
+}
+
+/// Copies neighbouring labels (k, 2) of any integer type.
+pub(crate) fn neighbours_of(pairs: &Any<'_>) -> Result<Vec<[u32; 2]>> {
+    twos(pairs, ["neighbours", "labels", "two labels each"])
+}
+
+/// Copies rows of two numbers of any integer type.
+fn twos(given: &Any<'_>, [name, of, what]: [&str; 3]) -> Result<Vec<[u32; 2]>> {
+    let array = as_numpy(given, name)?;
     let shape = array.shape();
     if !matches!(shape, [_, 2] | [0]) {
         return Err(refused!(BadArray:
-            "edges have shape {shape:?}; they must be (k, 2), two vertices a row"));
+            "{name} have shape {shape:?}; they must be (k, 2), two {of} a row"));
     }
-    let flat = array.call_method1(intern!(edges.py(), "reshape"), (-1,))?;
-    let ends = numbers(&flat, ["edges", "the numbers of their vertices"])?;
-    Ok(ends.as_chunks().0.to_vec())
+    let flat = array.call_method1(intern!(given.py(), "reshape"), (-1,))?;
+    let all = numbers(&flat, [name, what])?;
+    Ok(all.as_chunks().0.to_vec())
 }
 
 /// Copies edges (k, 2) and points (k,), of any integer type, as the triangles that they are.

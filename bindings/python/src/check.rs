@@ -11,7 +11,7 @@ use crate::usd::{self, Raised};
 use numpy::{IntoPyArray, PyArray1};
 use pliant_check::{
     Baseline, BodyFacts, BodyThere, Check as Running, Error, FirstImpact, Found, Frames, Group,
-    Interval, Kinds, Life, Place, Rest, Settings, Split,
+    Interval, Kinds, LabelFile, Life, Place, Rest, Settings, Split,
 };
 use pliant_io::{OpenOptions, shown};
 use pyo3::exceptions::PyUserWarning;
@@ -50,7 +50,7 @@ pub(crate) struct Check {
 }
 
 /// Name of a body or group, or the number of a body.
-#[derive(FromPyObject)]
+#[derive(FromPyObject, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Name {
     Number(usize),
     Path(PathBuf),
@@ -145,9 +145,12 @@ impl Name {
 ///
 /// - within: a distance of at least 0, in the unit of the files. Finds pairs of triangles of
 ///   different bodies at most that far apart; Frame.distance is the least. Not with crossing or
-///   swept; one body alone, and itself, need rest
+///   swept; one body alone, and itself, need rest or labels
 /// - rest: a frame number, or a file with the mesh of the one body. With within, pairs of one file
 ///   are left out that are as close in this rest shape
+/// - labels: files of labels by body, {"walk.npz": "parts.npy"}. Triangles of a body are left out
+///   whose labels are equal, or have a vertex in common. A file is an array of integers, one for
+///   each triangle or each polygon; a negative one leaves nothing out. Not with crossing or swept
 /// - crossing: leaves out places where surfaces only touch, as along a cut. No triangles cross
 ///   there, and no surface passes through another, not even exactly at edges and vertices. Where
 ///   sides are unclear a place stays. Frame.only_touching counts the pairs. Not with within
@@ -186,12 +189,12 @@ impl Name {
         *paths, itself=false, within=None, rest=None, crossing=false, ignore_adjacent=false,
         swept=false, first=false, weld=true, weld_tolerance=0.0, split=None, groups=None,
         ignore=None, baseline=None, skip_degenerate=false, crossing_edges=false, places=false,
-        frames=None, clip=None, fps=30.0, threads=Threads::Count(1)
+        frames=None, clip=None, fps=30.0, threads=Threads::Count(1), labels=None
     ),
     text_signature = "(*paths, itself=False, within=None, rest=None, crossing=False, \
         ignore_adjacent=False, swept=False, first=False, weld=True, weld_tolerance=0.0, \
         split=None, groups=None, ignore=None, baseline=None, skip_degenerate=False, \
-        crossing_edges=False, places=False, frames=None, clip=None, fps=30.0, threads=1)"
+        crossing_edges=False, places=False, frames=None, clip=None, fps=30.0, threads=1, labels=None)"
 )]
 #[expect(
     clippy::too_many_arguments,
@@ -221,6 +224,7 @@ pub(crate) fn check(
     clip: Option<String>,
     fps: f64,
     threads: Threads,
+    labels: Option<BTreeMap<Name, PathBuf>>,
 ) -> Result<Check> {
     let group = |(name, bodies): (String, Vec<Name>)| {
         let bodies = bodies.into_iter().map(Name::into_text);
@@ -228,10 +232,15 @@ pub(crate) fn check(
         Ok(Group { name, bodies })
     };
     let two = |(a, b): (Name, Name)| Ok([a.into_text()?, b.into_text()?]);
+    let of_body = |(body, file): (Name, PathBuf)| {
+        let body = body.into_text()?;
+        Ok(LabelFile { body, file })
+    };
     let settings = Settings {
         itself,
         within,
         rest: rest.map(Known::rest).transpose()?,
+        labels: (labels.into_iter().flatten().map(of_body)).collect::<Result<_>>()?,
         crossing,
         ignore_adjacent,
         swept,

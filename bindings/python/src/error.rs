@@ -255,12 +255,20 @@ pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str
         Error::NoClip => Some("leave out clip="),
         Error::EmptyGroup { .. } => Some("give each group a list of its bodies"),
         Error::Distance(_) => Some("give within= in the unit of the files"),
-        Error::WithinItself => Some("name two bodies or more and leave out itself=, or give rest="),
+        Error::WithinItself => {
+            Some("name two bodies or more and leave out itself=, or give rest= or labels=")
+        }
+        Error::BadLabels { .. } => {
+            Some("save an integer for each triangle of the first frame, or each polygon")
+        }
+        Error::LabelsWith { .. } => Some("run two checks, one of them without labels="),
         Error::RestAlone => Some("give within="),
         Error::BadRest { .. } => {
             Some("name a frame, or a file with the mesh of the one body that is checked")
         }
-        Error::RestChanged { .. } => Some("check the frames before it alone, with frames="),
+        Error::RestChanged { .. } | Error::LabelsChanged { .. } => {
+            Some("check the frames before it alone, with frames=")
+        }
         Error::CrossingWithin => Some("run two checks, one with within= and one with crossing="),
         Error::SweptWithin => Some("run two checks, one with within= and one with swept="),
         Error::SweptOneFrame { .. } => {

@@ -1,7 +1,7 @@
 //! State of a world as pickle writes it, and a world restored from it.
 //!
 //! Written are bodies by number, with shape, motion, filter, environment, vertex groups, rest
-//! shape, thickness and loose box, and the ignored pairs. Options are arguments of the constructor
+//! shape, labels, thickness and loose box, and the ignored pairs. Options are arguments of the constructor
 //! that pickle calls. Trees are not written but built anew on the present shapes, which changes no
 //! answer. Numbers of edges are written once somebody has asked for them, so they stay; older
 //! pickles lack them. A state that is read is checked, for it is restored by the calls that a
@@ -12,10 +12,13 @@ use crate::arrays::{CopiedCoordinates, CopiedMesh};
 use crate::error::{Refused, Result, caught, refused};
 use crate::state::{Corners, State};
 use numpy::{PyArray2, PyArrayMethods};
-use pliant::{BodyId, Error};
+use pliant::{BodyId, Error, Labels};
 use pliant_check::with_world;
 use pliant_io::Precision;
 use pyo3::prelude::*;
+
+/// Labels of the faces, and pairs of neighbours.
+type WrittenLabels = (Vec<u32>, Option<Vec<[u32; 2]>>);
 
 /// A body, copied from a world without the interpreter lock.
 #[derive(IntoPyObject)]
@@ -26,6 +29,7 @@ struct CopiedBody {
     end: Option<Owned>,
     groups: Vec<u32>,
     rest: Option<Owned>,
+    labels: Option<WrittenLabels>,
     thickness: Vec<f64>,
     edges: Option<Rows<u32, 2>>,
     filter: (u32, u32),
@@ -63,6 +67,8 @@ struct WrittenBody<'py> {
     #[pyo3(default)]
     rest: Option<Any<'py>>,
     #[pyo3(default)]
+    labels: Option<WrittenLabels>,
+    #[pyo3(default)]
     thickness: Vec<f64>,
     #[pyo3(default)]
     edges: Option<Bound<'py, PyArray2<u32>>>,
@@ -90,6 +96,7 @@ impl Copied {
                     thickness.clear();
                 }
                 let edges = world.numbered_edges(id)?;
+                let labels = world.labels(id)?;
                 Ok(CopiedBody {
                     body: id.0,
                     faces: Rows(world.triangles(id)?.to_vec()),
@@ -97,6 +104,9 @@ impl Copied {
                     end: world.end_positions(id)?.map(Owned::from),
                     groups,
                     rest: world.rest_positions(id)?.map(|rest| Owned::from(rest.to_vec())),
+                    labels: labels.map(|it| {
+                        (it.of_triangles.to_vec(), it.neighbours.map(<[_]>::to_vec))
+                    }),
                     thickness,
                     edges: edges.map(|edges| Rows(edges.to_vec())),
                     filter: world.filter(id)?,
@@ -159,6 +169,14 @@ impl Written<'_> {
             if let Some(rest) = &written.rest {
                 let rest = CopiedCoordinates::of(rest)?;
                 state.set_rest_positions(body, rest.get()?)?;
+            }
+            if let Some((of_triangles, neighbours)) = &written.labels {
+                let (of_triangles, neighbours) = (&of_triangles[..], neighbours.as_deref());
+                let labels = Some(Labels {
+                    of_triangles,
+                    neighbours,
+                });
+                with_world!(&mut state.world, world => world.set_labels(body, labels)?);
             }
             if !written.thickness.is_empty() {
                 let all = &written.thickness;

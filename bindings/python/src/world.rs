@@ -15,7 +15,7 @@ use crate::selection::{Body, Selection};
 use crate::signals::interruptible;
 use crate::state::{Corners, Shared, State};
 use numpy::PyArray2;
-use pliant::{BodyId, Impact, InContact, NodeBox};
+use pliant::{BodyId, Impact, InContact, Labels, NodeBox};
 use pliant_check::with_world;
 use pliant_io::{Positions, Precision};
 use pyo3::prelude::*;
@@ -52,8 +52,8 @@ use std::borrow::Cow;
 /// - change of a mesh: set_mesh, edit, apply, live_triangles, live_vertices, mesh_revision,
 ///   components, split, fuse, weld
 /// - who may meet: set_filter, filter, set_environment, environment, ignore, unignore, ignored,
-///   set_vertex_groups, vertex_groups, set_rest_positions, rest_positions, set_thickness,
-///   set_vertex_thickness, thickness
+///   set_vertex_groups, vertex_groups, set_rest_positions, rest_positions, set_labels, labels,
+///   set_thickness, set_vertex_thickness, thickness
 /// - speed: options, rebuild, tree_quality, set_loose_box, loose_box, vertex_order, statistics,
 ///   memory_usage
 /// - the tree itself: tree_shape, tree_cut, tree_boxes, validate
@@ -576,6 +576,58 @@ impl World {
         ask!(self, py, world => {
             world.rest_positions(body.0)?.map(|rest| Owned::from(rest.to_vec()))
         })
+    }
+
+    /// Labels the faces of a body, (m,) integers: equal or neighbouring ones do not meet.
+    ///
+    /// They are for the parts of a character. Pairs of triangles of the body with such labels are
+    /// left out of intersections, contacts, adjacent contacts and close pairs. Labels are
+    /// neighbours if a vertex has triangles of both, or, if neighbours is given, as its rows (k, 2)
+    /// say. A vertex or an edge has the labels of all its triangles; a pair of elements is left out
+    /// if each label of one is equal or next to each of the other. A face labelled 2^32 - 1 is left
+    /// out of nothing. None takes all labels away. Other questions look past labels: crossing
+    /// edges, candidates, impacts, free steps, clearance.
+    ///
+    /// Labels stay until the body is given another mesh. A face that an edit adds has none.
+    ///
+    /// Raises pliant.Error: NoSuchBody, BadArray, WrongLength. Cost: O(m), and O(m log m) of the
+    /// next question.
+    #[pyo3(signature = (body, labels, neighbours=None))]
+    fn set_labels(
+        &self,
+        py: Python<'_>,
+        body: Body,
+        labels: Option<&Any<'_>>,
+        neighbours: Option<&Any<'_>>,
+    ) -> Result<()> {
+        let about = |refused: Refused| refused.of_body(Some(body.0));
+        let of_faces = |given| arrays::numbers(given, ["labels", "one for each face"]);
+        let labels = labels.map(of_faces).transpose().map_err(about)?;
+        let pairs = neighbours
+            .map(arrays::neighbours_of)
+            .transpose()
+            .map_err(about)?;
+        let labels = labels.as_deref().map(|of_triangles| Labels {
+            of_triangles,
+            neighbours: pairs.as_deref(),
+        });
+        ask!(self, py, world => world.set_labels(body.0, labels)?)
+    }
+
+    /// Labels of a body's faces (m,), and neighbours (k, 2) or None; None without labels.
+    ///
+    /// Both are new arrays, uint32.
+    ///
+    /// Raises pliant.Error: NoSuchBody.
+    fn labels(
+        &self,
+        py: Python<'_>,
+        body: Body,
+    ) -> Result<Option<(Column<u32>, Option<Rows<u32, 2>>)>> {
+        ask!(self, py, world => world.labels(body.0)?.map(|labels| {
+            let neighbours = labels.neighbours.map(|pairs| Rows(pairs.to_vec()));
+            (Column(labels.of_triangles.to_vec()), neighbours)
+        }))
     }
 
     /// Makes a body thick: every vertex is a ball of this radius, a float of at least 0.

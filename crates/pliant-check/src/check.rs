@@ -5,12 +5,13 @@ use crate::baseline::{self, Known};
 use crate::bodies::{Bodies, BodyFacts};
 use crate::elements::Owners;
 use crate::error::Error;
-use crate::filter::Filter;
+use crate::filter::{Filter, Names};
 use crate::found::{
     Adjacent, Closeness, CrossingEdges, Found, Gap, How, MOST_COUNTED, Stop, Taker,
 };
 use crate::interval::{ElementPair, Impact, ImpactTaker, Interval, WIDTH};
 use crate::joined::Meshes;
+use crate::labels;
 use crate::lives::{Life, Lives};
 use crate::one_point;
 use crate::opened::Opened;
@@ -223,13 +224,12 @@ impl Check {
             }
             Some(Rest::Frame(_)) | None => None,
         };
-        let sequence = Sequence::new(opened.sources, rest, settings.options)?;
-        let filter = Filter::new(
-            &sequence.sources,
-            &bodies,
-            &settings.groups,
-            &settings.ignore,
-        )?;
+        let mut sequence = Sequence::new(opened.sources, rest, settings.options)?;
+        let names = Names::new(&sequence.sources, &bodies, &settings.groups)?;
+        let filter = Filter::new(&names, &settings.ignore)?;
+        let labels = labels::read(&settings.labels, &names, settings.max_list)?;
+        let are_all_labelled = labels.iter().all(Option::is_some);
+        sequence.label(labels);
         let last = sequence.frame_count - 1;
         let there = |what, frame| {
             let no_such = Error::NoSuchFrame { what, frame, last };
@@ -269,30 +269,7 @@ impl Check {
         }
         let mut asked = settings.clone();
         asked.itself |= bodies.count() == 1;
-        match asked.within {
-            Some(distance) if !(distance >= 0.0 && distance.is_finite()) => {
-                return Err(Error::Distance(distance));
-            }
-            Some(_) if asked.itself && asked.rest.is_none() => return Err(Error::WithinItself),
-            Some(_) if asked.crossing => return Err(Error::CrossingWithin),
-            None if asked.rest.is_some() => return Err(Error::RestAlone),
-            _ => {}
-        }
-        if asked.swept {
-            match &asked {
-                _ if frames.count < 2 => {
-                    let count = frames.count;
-                    return Err(Error::SweptOneFrame { count });
-                }
-                Settings {
-                    within: Some(_), ..
-                } => return Err(Error::SweptWithin),
-                Settings {
-                    baseline: Some(_), ..
-                } => return Err(Error::SweptBaseline),
-                _ => {}
-            }
-        }
+        refuse_contradictions(&asked, frames.count, are_all_labelled)?;
         Ok(Self {
             asked,
             frames,
@@ -1228,4 +1205,41 @@ impl Check {
             error,
         }
     }
+}
+
+/// Refuses settings that contradict each other, for a count of frames to be checked.
+fn refuse_contradictions(
+    asked: &Settings,
+    frames: usize,
+    are_all_labelled: bool,
+) -> Result<(), Error> {
+    match asked.within {
+        Some(distance) if !(distance >= 0.0 && distance.is_finite()) => {
+            return Err(Error::Distance(distance));
+        }
+        Some(_) if asked.itself && asked.rest.is_none() && !are_all_labelled => {
+            return Err(Error::WithinItself);
+        }
+        Some(_) if asked.crossing => return Err(Error::CrossingWithin),
+        None if asked.rest.is_some() => return Err(Error::RestAlone),
+        _ => {}
+    }
+    if !asked.labels.is_empty() && (asked.crossing || asked.swept) {
+        return Err(Error::LabelsWith { swept: asked.swept });
+    }
+    if asked.swept {
+        match asked {
+            _ if frames < 2 => {
+                return Err(Error::SweptOneFrame { count: frames });
+            }
+            Settings {
+                within: Some(_), ..
+            } => return Err(Error::SweptWithin),
+            Settings {
+                baseline: Some(_), ..
+            } => return Err(Error::SweptBaseline),
+            _ => {}
+        }
+    }
+    Ok(())
 }

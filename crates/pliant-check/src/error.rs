@@ -47,9 +47,38 @@ pub enum Error {
     /// A distance was asked for with bodies checked against themselves, without a rest shape.
     #[error(
         "pairs within a distance are searched for between different bodies only, unless there is \
-         a rest shape: neighbouring triangles of one body are always that close"
+         a rest shape, or labels of all bodies: neighbouring triangles of one body are always that \
+         close"
     )]
     WithinItself,
+    /// The labels of a source cannot be used.
+    #[error("the labels {}: {}", shown(file), shown_within(why, 1000))]
+    BadLabels {
+        /// Path of the file.
+        file: PathBuf,
+        /// Reason.
+        why: String,
+    },
+    /// A source whose mesh changes has no labels any more.
+    #[error(
+        "{}: the mesh is another than in the first frame, and the labels say nothing about it",
+        place(source_name, *frame)
+    )]
+    LabelsChanged {
+        /// Name of the source.
+        source_name: String,
+        /// Number of the frame.
+        frame: usize,
+    },
+    /// Labels and crossing places, or impacts, were asked for together.
+    #[error(
+        "labels leave out pairs of triangles, which {} cannot do without",
+        if *swept { "what meets on the way from frame to frame" } else { "places that cross" }
+    )]
+    LabelsWith {
+        /// Whether impacts were asked for, not crossing places.
+        swept: bool,
+    },
     /// A rest shape was given without a distance.
     #[error("a rest shape says which triangles are always close, and no distance was asked for")]
     RestAlone,

@@ -22,14 +22,8 @@ pub(crate) struct Filter {
 }
 
 impl Filter {
-    /// Resolves the names in `groups` and `ignore`. Refuses unknown names.
-    pub(crate) fn new(
-        sources: &[Source],
-        bodies: &Bodies,
-        groups: &[Group],
-        ignore: &[[String; 2]],
-    ) -> Result<Self, Error> {
-        let names = Names::new(sources, bodies, groups)?;
+    /// Resolves the names in `ignore`. Refuses unknown names.
+    pub(crate) fn new(names: &Names, ignore: &[[String; 2]]) -> Result<Self, Error> {
         if ignore.is_empty() {
             return Ok(Self::default());
         }
@@ -37,7 +31,7 @@ impl Filter {
         terms.sort_unstable();
         terms.dedup();
 
-        let mut classes = vec![0; bodies.count() as usize];
+        let mut classes = vec![0; names.bodies.count() as usize];
         // Terms that apply to the bodies of each class.
         let mut terms_of: Vec<Vec<&str>> = vec![Vec::new()];
         for term in terms {
@@ -109,8 +103,8 @@ fn without_folder(name: &str) -> Option<&str> {
 
 /// Resolver of names to bodies.
 pub(crate) struct Names<'a> {
-    sources: &'a [Source],
-    bodies: &'a Bodies,
+    pub(crate) sources: &'a [Source],
+    pub(crate) bodies: &'a Bodies,
     groups: BTreeMap<&'a str, Vec<u32>>,
 }
 

@@ -7,9 +7,10 @@
 
 use crate::any_world::{AnyWorld, NotTaken};
 use crate::error::Error;
+use crate::labels::SourceLabels;
 use crate::rest::RestShape;
 use crate::{one_point, with_world};
-use pliant::{BodyId, Options};
+use pliant::{BodyId, Labels, Options};
 use pliant_io::{Body as Source, Positions, Precision};
 use std::collections::HashMap;
 
@@ -38,6 +39,8 @@ pub(crate) struct Sequence {
     pub(crate) given: usize,
     /// Rest shapes of all sources, if they are known.
     rest: Option<Vec<RestShape>>,
+    /// Labels of the sources that have any.
+    labels: Vec<Option<SourceLabels>>,
     /// Frame after the one that the sources are in.
     next: usize,
     /// Whether the sources that stand still were read.
@@ -83,6 +86,7 @@ impl Sequence {
             widened: Vec::new(),
             ids: Vec::new(),
             rest: rest.map(|rest| vec![rest]),
+            labels: Vec::new(),
             next: 0,
             has_still: false,
             shown: None,
@@ -105,7 +109,36 @@ impl Sequence {
             self.give(frame)?;
         }
         self.give_rest(frame)?;
+        self.give_labels(frame)?;
         self.shown = Some(frame);
+        Ok(())
+    }
+
+    /// Labels the sources, which must be before the first frame.
+    pub(crate) fn label(&mut self, labels: Vec<Option<SourceLabels>>) {
+        self.labels = labels;
+    }
+
+    /// Gives labels to the bodies of the world that have none and should.
+    fn give_labels(&mut self, frame: usize) -> Result<(), Error> {
+        for (number, labels) in self.labels.iter().enumerate() {
+            let (source, id) = (&self.sources[number], self.ids[number]);
+            let Some(of_triangles) = labels else {
+                continue;
+            };
+            let given = with_world!(&mut self.world, world => {
+                if matches!(world.labels(id), Ok(Some(_))) {
+                    continue;
+                }
+                if self.meshes[number] != FIRST {
+                    let source_name = source.name().to_owned();
+                    return Err(Error::LabelsChanged { source_name, frame });
+                }
+                let neighbours = None;
+                world.set_labels(id, Some(Labels { of_triangles, neighbours }))
+            });
+            given.map_err(|error| not_taken(error.into(), source, frame))?;
+        }
         Ok(())
     }
 

@@ -13,11 +13,17 @@ pub struct Settings {
     ///
     /// In units of the positions. An intersecting pair is at distance 0. Neighbours in a body
     /// always are close. So of one body alone, and with [`itself`](Self::itself), a distance needs
-    /// a [rest shape](Self::rest).
+    /// a [rest shape](Self::rest), or [labels](Self::labels) of all sources.
     pub within: Option<f64>,
     /// Rest shape of every source, for [`within`](Self::within): triangles of one source that are
     /// at most that far apart in it are left out.
     pub rest: Option<Rest>,
+    /// Labels of the triangles of sources: pairs of equal labels are left out, and of labels that
+    /// have a vertex in common. See [`World::set_labels`](pliant::World::set_labels).
+    ///
+    /// Not with [`crossing`](Self::crossing), whose places need all pairs, nor with
+    /// [`swept`](Self::swept), which finds no pairs of triangles.
+    pub labels: Vec<LabelFile>,
     /// Leaves out all pairs of places where surfaces only touch.
     ///
     /// Each surface then stays on one closed side of the other: along a cut, or where parts lie on
@@ -127,6 +133,16 @@ pub enum Rest {
     File(PathBuf),
 }
 
+/// Labels of the triangles of a source, in a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LabelFile {
+    /// Name of the source, or the number of a body that is one.
+    pub body: String,
+    /// NumPy file (`.npy`) of integers, shape (m,): a label for each triangle of the first frame,
+    /// or for each polygon of the file. A triangle with a negative one is left out of nothing.
+    pub file: PathBuf,
+}
+
 /// Known pairs, which are left out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Baseline {
@@ -164,6 +180,7 @@ impl Default for Settings {
             itself: false,
             within: None,
             rest: None,
+            labels: Vec::new(),
             swept: false,
             crossing: false,
             ignore_adjacent: false,

@@ -104,13 +104,20 @@ fn checking(error: &CheckError) -> Option<&'static str> {
         CheckError::NoClip => Some("leave out `--clip`"),
         CheckError::WithinItself => Some(
             "name two bodies or more, or make bodies of the pieces of one with `--split`; \
-             leave out `--self`, or say with `--rest` what is close at rest",
+             leave out `--self`, or say with `--rest` what is close at rest, or with `--labels` \
+             which parts are neighbours",
         ),
+        CheckError::BadLabels { .. } => {
+            Some("save an integer for each triangle of the first frame, or each polygon")
+        }
+        CheckError::LabelsWith { .. } => Some("run two checks, one of them without `--labels`"),
         CheckError::RestAlone => Some("give a distance with `--within`"),
         CheckError::BadRest { .. } => {
             Some("name a frame, or a file with the mesh of the one body that is checked")
         }
-        CheckError::RestChanged { .. } => Some("check the frames before it alone, with `--frames`"),
+        CheckError::RestChanged { .. } | CheckError::LabelsChanged { .. } => {
+            Some("check the frames before it alone, with `--frames`")
+        }
         CheckError::SweptOneFrame { .. } => {
             Some("name a sequence, choose more of it with `--frames`, or leave out `--swept`")
         }

@@ -120,6 +120,7 @@
 //! | `format.rs` | file endings and their readers: the one place to add a format |
 //! | `frame.rs`, `positions.rs`, `polygons.rs` | data of a frame: recorded once, then compared |
 //! | `groups.rs` | names of the triangles of an OBJ or STL file |
+//! | `integers.rs` | numbers of the triangles from an NPY file |
 //! | `obj.rs`, `ply/`, `stl.rs`, `npz/`, `cache.rs`, `gltf/` | one format each |
 //! | `moved_mesh.rs` | the mesh that the positions of a cache move |
 //! | `evaluated.rs` | bodies that the calling program evaluates |
@@ -143,6 +144,7 @@ mod format;
 mod frame;
 mod gltf;
 mod groups;
+mod integers;
 mod memory;
 mod moved_mesh;
 mod natural;
@@ -170,6 +172,7 @@ pub use body::{Body, open, open_all};
 pub use error::{Error, Place, Reason};
 pub use evaluated::{Evaluated, evaluated};
 pub use groups::Groups;
+pub use integers::integers;
 pub use near::NearSeams;
 pub use note::Note;
 pub use options::OpenOptions;

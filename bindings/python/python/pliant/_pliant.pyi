@@ -190,6 +190,17 @@ class World:
         """Gives a body a rest shape, positions (n, 3), or takes it away with None."""
     def rest_positions(self, body: SupportsIndex) -> NDArray[Any] | None:
         """Positions of a body in its rest shape, a new array (n, 3), or None if it has none."""
+    def set_labels(
+        self,
+        body: SupportsIndex,
+        labels: _Array | None,
+        neighbours: _Array | None = None,
+    ) -> None:
+        """Labels the faces of a body, (m,) integers: equal or neighbouring ones do not meet."""
+    def labels(
+        self, body: SupportsIndex
+    ) -> tuple[NDArray[np.uint32], NDArray[np.uint32] | None] | None:
+        """Labels of a body's faces (m,), and neighbours (k, 2) or None; None without labels."""
     def set_thickness(self, body: SupportsIndex, thickness: float) -> None:
         """Makes a body thick: every vertex is a ball of this radius, a float of at least 0."""
     def set_vertex_thickness(self, body: SupportsIndex, thickness: _Array) -> None:
@@ -442,6 +453,7 @@ def check(
     clip: str | None = None,
     fps: float = 30.0,
     threads: int | Literal["all"] = 1,
+    labels: Mapping[_Name, str | PathLike[str]] | None = None,
 ) -> Check:
     """Checks files frame by frame, as the program `pliant check` does: an iterator of Frame."""
 

@@ -6,7 +6,7 @@ use crate::report::PictureOptions;
 use crate::tree_options::threads;
 use crate::{rate, size};
 use clap::{Args, ValueEnum, ValueHint};
-use pliant_check::{Baseline, Group, Rest};
+use pliant_check::{Baseline, Group, LabelFile, Rest};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -29,7 +29,7 @@ pub(crate) struct Arguments {
     pub(super) itself: bool,
     /// Report triangles of different bodies that are at most D apart, instead of those that
     /// intersect. D is in the unit of the files; triangles that intersect are 0 apart. One body,
-    /// and --self, need --rest: in one body, neighbours always are that close
+    /// and --self, need --rest or --labels: in one body, neighbours always are that close
     #[arg(
         long,
         value_name = "D",
@@ -49,6 +49,17 @@ pub(crate) struct Arguments {
         requires = "within"
     )]
     pub(super) rest: Option<Rest>,
+    /// Leave out triangles of a body whose labels are equal or neighbours: parts such as upper and
+    /// lower arm. FILE is a NumPy array of integers, one for each triangle or each polygon. Labels
+    /// with a vertex in common are neighbours; a negative one leaves nothing out. For each body
+    /// again; not with --crossing or --swept
+    #[arg(
+        long,
+        value_name = "BODY=FILE.npy",
+        value_parser = names::labels,
+        conflicts_with_all = ["crossing", "swept"]
+    )]
+    pub(super) labels: Vec<LabelFile>,
     /// Leave out places where surfaces only touch, as along a cut. There no triangles cross, and no
     /// surface passes through another, not even exactly at edges and vertices. Where it is not
     /// clear what a side is, a place stays. Not with --within
@@ -178,6 +189,7 @@ Examples:
   pliant check walk.npz --hits hits.vtp              hits_00.vtp, ... (ParaView)
   pliant check shirt.ply skin.ply --within 0.002     nothing closer than 2 mm?
   pliant check cloth.npz --within 0.002 --rest 0     nothing closer to itself?
+  pliant check walk.npz --labels walk.npz=parts.npy  not at the joints
   pliant check shirt.npz skin.npz --swept            nothing jumps through?
   pliant check walk.npz --swept --report walk.html   with the moments of contact
   pliant check walk.npz --quiet && echo clean

@@ -116,6 +116,7 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
         itself: arguments.itself,
         within: arguments.within,
         rest: arguments.rest.clone(),
+        labels: arguments.labels.clone(),
         crossing: arguments.crossing,
         ignore_adjacent: arguments.ignore_adjacent,
         crossing_edges: !arguments.quiet && arguments.format == Format::Json,

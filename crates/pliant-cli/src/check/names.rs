@@ -1,6 +1,6 @@
 //! Names of bodies and groups on the command line: `NAME=BODY,BODY` and `A,B`.
 
-use pliant_check::{Baseline, Group, Rest};
+use pliant_check::{Baseline, Group, LabelFile, Rest};
 use pliant_io::shown;
 
 /// Advice where a name contains a separator: a comma or an equals sign would end it.
@@ -40,6 +40,25 @@ pub(super) fn rest(text: &str) -> Result<Rest, String> {
     Ok(frame(text)?.map_or_else(|| Rest::File(text.into()), Rest::Frame))
 }
 
+/// Parses labels: `BODY=FILE.npy`. The file is behind the last equals sign.
+pub(super) fn labels(text: &str) -> Result<LabelFile, String> {
+    let (body, file) = text
+        .rsplit_once('=')
+        .filter(|(body, file)| !body.is_empty() && !file.is_empty())
+        .ok_or("write BODY=FILE.npy, a body by its name or number, and a file of integers")?;
+    Ok(LabelFile {
+        body: body.to_owned(),
+        file: file.into(),
+    })
+}
+
+/// Pairs that labels leave out, in words.
+pub(super) fn labelled(labels: &[LabelFile]) -> Option<String> {
+    let bodies: Vec<_> = labels.iter().map(|it| shown(&it.body)).collect();
+    let of = bodies.join(", ");
+    (!bodies.is_empty()).then(|| format!("triangles of {of} whose labels are equal or neighbours"))
+}
+
 /// Pairs that a rest shape leaves out, in words.
 pub(super) fn at_rest(rest: &Rest) -> String {
     let shape = match rest {
@@ -65,7 +84,7 @@ pub(super) fn is_of_a_piece(name: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{baseline, group, is_of_a_piece, rest, two};
+    use super::{baseline, group, is_of_a_piece, labels, rest, two};
     use pliant_check::{Baseline, Rest};
 
     #[test]
@@ -101,6 +120,14 @@ mod tests {
 
     #[test]
     fn names_are_read_as_they_are_written() {
+        let read = labels("a=b.ply=parts.npy").unwrap();
+        assert_eq!(
+            (&read.body[..], &*read.file),
+            ("a=b.ply", "parts.npy".as_ref())
+        );
+        for text in ["parts.npy", "=parts.npy", "a.ply="] {
+            assert!(labels(text).unwrap_err().contains("BODY=FILE.npy"));
+        }
         let read = group("soft=shirt_*.obj,2,hair.ply#3").unwrap();
         assert_eq!(read.name, "soft");
         assert_eq!(read.bodies, ["shirt_*.obj", "2", "hair.ply#3"]);

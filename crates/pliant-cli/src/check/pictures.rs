@@ -6,7 +6,7 @@
 use super::adjacent::AdjacentTally;
 use super::arguments::{Arguments, Split};
 use super::moments;
-use super::names::at_rest;
+use super::names::{at_rest, labelled};
 use crate::advice;
 use crate::report::{Watcher, fact};
 use crate::table::{grouped, short};
@@ -205,6 +205,9 @@ impl Pictures {
             }
             if let Some(rest) = &arguments.rest {
                 play.notes.push(format!("Left out are {}.", at_rest(rest)));
+            }
+            if let Some(labelled) = labelled(&arguments.labels) {
+                play.notes.push(format!("Left out are {labelled}."));
             }
             if arguments.crossing {
                 play.notes

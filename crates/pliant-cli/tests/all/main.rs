@@ -10,6 +10,7 @@ mod convert;
 mod crossing;
 mod formats;
 mod hits;
+mod labels;
 mod memory;
 mod messages;
 mod names;

@@ -16,6 +16,7 @@ mod header;
 use crate::error::{Fault, Place, Reason};
 use crate::file::Found;
 use crate::frame::{Announced, Complete, Frame};
+use crate::memory::Account;
 use crate::moved_mesh::MovedMesh;
 use crate::note::Note;
 use crate::positions::Precision;
@@ -30,6 +31,37 @@ use std::io::Read as _;
 const VERTICES: [&str; 3] = ["vertices", "verts", "v"];
 /// Accepted names of the array of triangles; the first is the usual one.
 const FACES: [&str; 2] = ["faces", "f"];
+
+/// Reads an NPY file of integers, shape (n,). `max_memory`: limit of what they take, in bytes.
+pub(crate) fn integers(file: &Found, max_memory: u64) -> Result<Vec<i64>, Fault> {
+    let mut array = Entry::whole(file, "integers")?;
+    let header = Header::read(&mut array)?;
+    let &[count] = &header.shape[..] else {
+        return Err(wrong_shape(&header.shape, "(n,)").into());
+    };
+    let dtype = header.dtype;
+    if !matches!((dtype.kind, dtype.size), ('i' | 'u', 1 | 2 | 4 | 8)) {
+        let written = &dtype.written;
+        let advice = format!("type {written} cannot be read; save integers");
+        return Err(Reason::Unsupported(advice).into());
+    }
+    let bytes = count.saturating_mul(dtype.size as u64);
+    let there = array.left();
+    if there < bytes {
+        let message = format!("{count} numbers need {bytes} bytes, and {there} are there");
+        return Err(Reason::Truncated(message).into());
+    }
+    Account::new(max_memory).enter(there.saturating_add(count.saturating_mul(8)))?;
+    let all = whole(&mut array)?;
+    array.unchanged()?;
+    if all.len() as u64 != bytes {
+        let there = all.len();
+        let message = format!("{count} numbers need {bytes} bytes, and {there} are there");
+        return Err(Reason::Malformed(message).into());
+    }
+    let numbers = all.chunks_exact(dtype.size);
+    Ok(numbers.map(|bytes| integer(bytes, &dtype)).collect())
+}
 
 /// Reader of an NPZ file, or of an NPY file of positions beside a mesh.
 pub(crate) struct Npz {

@@ -447,6 +447,7 @@ impl<S: Coordinate> Body<S> {
             shape: self.shape.view(mesh.order(), Origin::default()),
             order: mesh.order(),
             removed: mesh.removed(),
+            labels: self.filter.known_labels(),
             mesh,
             stars,
             interrupt: executor.interrupt,

@@ -185,9 +185,10 @@ fn search_body<S: Coordinate>(
     sink: AdjacentSink<S>,
 ) -> ControlFlow<()> {
     statistics.body_pairs += 1;
-    let Some(starred) = body.starred(threads) else {
+    let Some(mut starred) = body.starred(threads) else {
         return ControlFlow::Break(());
     };
+    starred.labels = starred.labels.filter(|_| request.leaves_out);
     search.search(&starred, request.only, threads, statistics, sink)
 }
 

@@ -95,6 +95,7 @@ impl<S: Coordinate> AskedCrossing<S> {
     ) -> Result<(), Error> {
         let request = Request {
             only: Some(ContactKind::Crossing),
+            leaves_out: false,
             ..*request
         };
         let (some, mut count) = (&mut self.some, 0);

@@ -19,7 +19,7 @@ pub(crate) struct Request<'q> {
     pub(crate) question: Option<Question<'q>>,
     /// Margin round each element for candidates, largest distance for close pairs; else 0.
     pub(crate) within: f64,
-    /// Whether close pairs are left out by the labels and the rest shape of their one body.
+    /// Whether labels and rest shapes leave out pairs of one body, of kinds that look at them.
     pub(crate) leaves_out: bool,
     /// Width that intervals of times may have, for impacts; other kinds ignore it.
     pub(crate) width: f64,

@@ -189,8 +189,8 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.rest())
     }
 
-    /// Labels the triangles of a body: pairs of equal or neighbouring labels are left out of its
-    /// intersections and close pairs with itself. `None` takes the labels away.
+    /// Labels the triangles of a body: pairs of equal or neighbouring labels are left out of what
+    /// it finds with itself. `None` takes the labels away.
     ///
     /// They are for the parts of a character: upper and lower arm always touch at the elbow. Labels
     /// are neighbours if a vertex has triangles of both, or if
@@ -198,9 +198,8 @@ impl<S: Scalar> World<S> {
     /// triangles. A pair of elements is left out if each label of one is equal or next to each of
     /// the other.
     ///
-    /// Left out are pairs of [`intersections`](Self::intersections), [`contacts`](Self::contacts),
-    /// and close pairs. Other questions look past labels: crossing edges, adjacent triangles,
-    /// candidates, impacts, free steps and clearance.
+    /// Intersections, contacts, adjacent contacts and close pairs leave them out. Other questions
+    /// look past labels: crossing edges, candidates, impacts, free steps and clearance.
     ///
     /// They stay with the body until [`set_mesh`](Self::set_mesh) gives it another mesh. A triangle
     /// that an [`Edit`](crate::Edit) adds is [`NONE`](Labels::NONE), which is left out of nothing;

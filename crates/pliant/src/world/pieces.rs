@@ -59,10 +59,10 @@ impl<S: Scalar> World<S> {
     /// one component there are none, and nothing has changed.
     ///
     /// Pieces inherit filter, environment, loose box, vertex groups, rest shape, labels, thickness,
-    /// and whom the body [ignores](Self::ignore). If it ignores itself, the pieces ignore each other
-    /// and it. So [`Everything`](crate::Selection::Everything) finds what it found, but for rest
-    /// shape and labels, which say nothing of two bodies. A motion of the body ends, as by
-    /// [`apply`](Self::apply). Vertices that no triangle uses stay with it.
+    /// and whom the body [ignores](Self::ignore). If it ignores itself, the pieces ignore each
+    /// other and it. So [`Everything`](crate::Selection::Everything) finds what it found, unless
+    /// rest shape or labels left it out: they say nothing of two bodies. A motion of the body ends,
+    /// as by [`apply`](Self::apply). Vertices that no triangle uses stay with it.
     ///
     /// ```
     /// use pliant::World;
@@ -411,7 +411,7 @@ impl<S: Scalar> Inherited<S> {
     }
 }
 
-/// Labels of a body of so many triangles, then of another's that are there, and all neighbours.
+/// Labels of a body with a count of triangles, then of another's that are there, and neighbours.
 ///
 /// If both have labels, and only one says which are neighbours, the other body loses its own.
 fn fused_labels(

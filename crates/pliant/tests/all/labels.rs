@@ -67,6 +67,39 @@ fn every_configuration_leaves_the_same_pairs_out() {
 }
 
 #[test]
+fn adjacent_contacts_are_left_out_and_crossing_edges_are_not() {
+    let (triangles, positions) = crumpled(12);
+    let stripes: Vec<u32> = (0..triangles.len() as u32).map(|it| it / 22 / 3).collect();
+    let labels = Labels {
+        of_triangles: &stripes,
+        neighbours: Some(&[[1, 0]]),
+    };
+    let body = Moving {
+        labels: Some(labels),
+        ..Moving::at(&triangles, &positions)
+    };
+    let world = &mut World::<f64>::new();
+    let id = world.add(&triangles, &positions).unwrap();
+    let itself = Selection::Within(id);
+    let ask = |world: &mut World<f64>| {
+        let adjacent = world.adjacent_intersections(itself).all().unwrap().iter();
+        let adjacent: Vec<_> = adjacent.map(|it| it.pair.triangles()).collect();
+        let crossing = world.crossing_edges(itself).all().unwrap().to_vec();
+        (adjacent, crossing)
+    };
+    let (mut expected, crossing) = ask(world);
+    let before = expected.len();
+    reference::leave_out(&body, &mut expected);
+    assert!(
+        before > 2 * expected.len() && expected.len() > 10,
+        "{}",
+        expected.len()
+    );
+    world.set_labels(id, Some(labels)).unwrap();
+    assert_eq!(ask(world), (expected, crossing));
+}
+
+#[test]
 fn a_witness_is_not_asked_of_what_is_left_out() {
     let world = &mut World::<f64>::new();
     let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];

@@ -28,6 +28,7 @@
 //! | `split`, `ignore`, `baseline`, `within`, `rest` | what was asked, if it was |
 //! | `crossing`, `swept`, `skip_degenerate`, `ignore_adjacent` | what was asked, if it was |
 //! | `groups` | numbers of bodies by name of the group, if it was asked |
+//! | `labels` | files of labels by name of the body, if there were any |
 //! | `frames` | [`FrameEntry`] each; with `swept` an [`IntervalEntry`] between two |
 //! | `places` | places over all frames: [`LifeEntry`]; absent with `--count` and `--first` |
 //! | `places_left_out` | number of places not in the list, which has the thousand largest |
@@ -38,7 +39,7 @@ use crate::check::arguments::{Arguments, Split};
 use crate::check::names::Names;
 use pliant_check::{
     Adjacent, Baseline, Check, CrossingEdges, FirstImpact, Found, Group, Impact, Interval, Kinds,
-    Life, Place, Rest,
+    LabelFile, Life, Place, Rest,
 };
 use pliant_io::Body as Source;
 use serde::Serialize;
@@ -56,6 +57,7 @@ pub(super) struct Json {
     ignore_adjacent: bool,
     within: Option<f64>,
     rest: Option<Rest>,
+    labels: Vec<LabelFile>,
     crossing: bool,
     swept: bool,
     has_frames: bool,
@@ -403,6 +405,7 @@ impl Json {
             ignore_adjacent: arguments.ignore_adjacent,
             within: arguments.within,
             rest: arguments.rest.clone(),
+            labels: arguments.labels.clone(),
             crossing: arguments.crossing,
             swept: arguments.swept,
             has_frames: false,
@@ -480,6 +483,12 @@ impl Form for Json {
             Some(Rest::File(file)) => {
                 write!(out, r#","rest":{}"#, json!(file.to_string_lossy()))?;
             }
+        }
+        if !self.labels.is_empty() {
+            let labels = self.labels.iter();
+            let labels = labels.map(|it| (it.body.clone(), json!(it.file.to_string_lossy())));
+            let labels: serde_json::Map<_, _> = labels.collect();
+            write!(out, r#","labels":{}"#, json!(labels))?;
         }
         if self.crossing {
             write!(out, r#","crossing":true"#)?;

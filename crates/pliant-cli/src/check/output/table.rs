@@ -7,9 +7,9 @@ use super::tally::Tally;
 use crate::check::arguments::Arguments;
 use crate::check::figures::counted;
 use crate::check::moments::elements;
-use crate::check::names::{Names, at_rest};
+use crate::check::names::{Names, at_rest, labelled};
 use crate::table::{grouped, short};
-use pliant_check::{Baseline, BodyFacts, Check, Found, Interval, Rest};
+use pliant_check::{Baseline, BodyFacts, Check, Found, Interval, LabelFile, Rest};
 use pliant_io::shown;
 use std::io::{self, Write};
 
@@ -28,6 +28,7 @@ pub(super) struct Table {
     skip_degenerate: bool,
     within: Option<f64>,
     rest: Option<Rest>,
+    labels: Vec<LabelFile>,
     crossing: bool,
     swept: bool,
     ignore_adjacent: bool,
@@ -47,6 +48,7 @@ impl Table {
             skip_degenerate: arguments.skip_degenerate,
             within: arguments.within,
             rest: arguments.rest.clone(),
+            labels: arguments.labels.clone(),
             crossing: arguments.crossing,
             swept: arguments.swept,
             ignore_adjacent: arguments.ignore_adjacent,
@@ -83,7 +85,8 @@ impl Table {
             .ignore_adjacent
             .then(|| "triangles that share a vertex".to_owned());
         let rest = self.rest.as_ref().map(at_rest);
-        let left_out = [known, rest, degenerate, touching, adjacent]
+        let labels = labelled(&self.labels);
+        let left_out = [known, rest, labels, degenerate, touching, adjacent]
             .into_iter()
             .flatten();
         let left_out: Vec<_> = left_out.collect();

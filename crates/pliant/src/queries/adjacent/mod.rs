@@ -17,7 +17,7 @@ mod sector;
 
 use self::one_way::{Wing, is_seen_without_overlaps};
 use self::sector::Sector;
-use super::{ContactKind, CrossingEdge, OwnEdges, Pair, Removed};
+use super::{ContactKind, CrossingEdge, LabelPairs, OwnEdges, Pair, Removed};
 use crate::geometry::{Real, Shape};
 use crate::held::{self, held};
 use crate::ids::{BodyId, TreeTriangle, TreeVertex};
@@ -45,6 +45,8 @@ pub(crate) struct StarredBody<'q, S> {
     pub(crate) shape: Shape<'q, S>,
     pub(crate) order: &'q Order,
     pub(crate) removed: Option<Removed<'q>>,
+    /// Pairs that labels leave out, if there are labels.
+    pub(crate) labels: Option<&'q LabelPairs>,
     pub(crate) mesh: &'q dyn OwnEdges,
     pub(crate) stars: &'q Stars,
     pub(crate) interrupt: &'q Interrupt<'q>,
@@ -437,6 +439,11 @@ impl Job {
         if common.any(|&corner| of.is_elsewhere(corner)) {
             return;
         }
+        if let Some(labels) = body.labels
+            && labels.leave_out([a, b].map(TreeTriangle))
+        {
+            return;
+        }
         self.candidates += 1;
         let is_apart = |one: usize, of_one: [TreeVertex; 3], other: usize, of_other| {
             let is_common = opposite(of_other, vertex).map(|end| of_one.contains(&end));
@@ -587,6 +594,7 @@ mod tests {
             },
             order: &order,
             removed: None,
+            labels: None,
             mesh: &NoEdges,
             stars: &stars,
             interrupt: &Interrupt::default(),

@@ -17,6 +17,7 @@ stands for the date in names of records:
     $P ../compare_with_ipctk.py > ipctk-DATE.txt
     $P ../compare_impacts_with_ipctk.py > impacts-ipctk-DATE.txt
     $P ../compare_close_with_ipctk.py > close-ipctk-DATE.txt
+    $P ../compare_codim_with_ipctk.py > codim-ipctk-DATE.txt
     $P ../compare_distance_with_fcl.py > close-fcl-DATE.txt
     cargo run --release -p pliant-bench --features peers --example edits > edits-DATE.txt
     python3 ../results.py DATE
@@ -280,6 +281,7 @@ def page(record, date):
     near_record = Record(near)
     near_aims = near_record.claims("near")
     ipctk, header, beside = beside_ipctk()
+    codim, codim_header, codim_found = beside_ipctk_codimensional()
     close = newest("close-*.json")
     close_record = Record(close)
     close_aims = close_record.claims("close")
@@ -361,14 +363,22 @@ an {near_record.machine['processor']}):
 
 Beside ipc-toolkit's `Candidates.build` with its LBVH ([record](records/{ipctk}), the same \
 machine; {header}). *More* are
-candidates that it has alone, all within its rounding; none is ours alone. Milliseconds; times \
-faster are medians of rounds, with the
-least and the most. The aims were 8 at margin 0.1 and swept 0.1, and 4 where output dominates \
-(margin 0.5, and armadillo-rollers swept 1).
+candidates that it has alone, all within its rounding; none is ours alone. Ours are sorted, in job \
+order, or in compressed rows; its are in
+no order. Milliseconds; times faster are medians of rounds, with the least and the most. The aims \
+were 8 at margin 0.1 and swept 0.1, and 4
+where output dominates (margin 0.5, and armadillo-rollers swept 1).
 
-| | | candidates | more | ours | its | times faster |
-|---|---|---|---|---|---|---|
+| | | candidates | more | sorted | job order | rows | its | times faster, sorted | in job order |
+|---|---|---|---|---|---|---|---|---|---|
 {beside}
+
+Bodies of edges and points beside its four lists ([record](records/{codim}); {codim_header}; \
+random cables, nets, clouds and sheets):
+{codim_found["ee"]} pairs of edges, {codim_found["fv"]} of faces and vertices, {codim_found["ev"]} \
+of edges and vertices, {codim_found["vv"]} of vertices. All are ours, too; \
+{codim_found["its_alone"]} are its alone. Distances of
+{codim_found["close"]} close pairs agree.
 
 ## What is close
 
@@ -516,11 +526,21 @@ def beside_ipctk():
     rows = []
     for line in lines:
         words = re.split(r"\s{2,}", line.strip())
-        if len(words) == 8 and words[4] == "0":
-            name, what, count, more, _, own, other, factor = words
-            rows.append(f"| {name} | {what} | {count} | {more} | {own} | {other} | {factor} |")
+        if len(words) == 11 and words[4] == "0":
+            rows.append(f"| {' | '.join(words[:4] + words[5:])} |")
     assert rows and lines[-1].endswith("errors, of any kind: 0"), file
     return file.name, lines[0], "\n".join(rows)
+
+
+def beside_ipctk_codimensional():
+    """Newest comparison of edges and points with ipctk: its name, header, and totals in words."""
+    file = newest("codim-ipctk-*.txt")
+    lines = file.read_text().splitlines()
+    names = re.split(r"\s{2,}", lines[2].strip())
+    # The last row is of all scenes.
+    found = dict(zip(names, re.split(r"\s{2,}", lines[-1].strip())[1:]))
+    assert found["its_alone"] == found["errors"] == "0", file
+    return file.name, lines[0], found
 
 
 def beside_ipctk_close():

@@ -4,12 +4,13 @@
 //! small, since the reference decides every pair. Coordinates are where exactness is hard.
 #![no_main]
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use arbitrary::Arbitrary;
 use pliant::reference::{Moving, Timed};
 use pliant::{
-    BodyId, BroadPhase, Degree, Options, Pair, Partition, Scalar, Selection, Update, World,
+    BodyId, BroadPhase, Degree, Labels, Options, Pair, Partition, Scalar, Selection, Update, World,
     reference,
 };
 use pliant_fuzz::places::Grid;
@@ -85,6 +86,7 @@ enum Call {
     Edit(u8, Vec<Change>),
     Rest(u8, Option<Shape>),
     Thickness(u8, Vec<u8>),
+    Labels(u8, Option<Vec<u8>>, Option<Vec<[u8; 2]>>),
 }
 
 /// A step of an edit. Numbers are taken modulo one more than the count, so that some name nothing.
@@ -154,6 +156,8 @@ struct Known<S> {
     /// Rest shape and thickness, if there are any.
     rest: Option<Vec<[S; 3]>>,
     thickness: Option<Vec<f64>>,
+    /// Labels of the triangles that are not empty, and neighbours, if there are any.
+    labels: Option<(Vec<u32>, Option<Vec<[u32; 2]>>)>,
     membership: u32,
     mask: u32,
     environment: u32,
@@ -302,6 +306,7 @@ impl<S: Scalar> Lived<S> {
                     groups: vec![0; positions.len()],
                     rest: None,
                     thickness: None,
+                    labels: None,
                     end: None,
                     positions,
                     membership,
@@ -351,6 +356,7 @@ impl<S: Scalar> Lived<S> {
                     if !is_same {
                         known.groups = vec![0; positions.len()];
                         known.rest = None;
+                        known.labels = None;
                         if let Some(all) = &mut known.thickness {
                             let most = all.iter().copied().fold(0.0, f64::max);
                             *all = vec![most; positions.len()];
@@ -672,6 +678,40 @@ impl<S: Scalar> Lived<S> {
                 set.expect("one for each vertex");
                 known.thickness = all.iter().any(|&it| it > 0.0).then_some(all);
             }
+            Call::Labels(number, ref labels, ref neighbours) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                let known = &mut self.known[body];
+                let label = |&it: &u8| match it % 8 {
+                    7 => Labels::NONE,
+                    label => u32::from(label),
+                };
+                known.labels = labels.as_ref().map(|labels| {
+                    let labels = labels.iter().map(label).chain(std::iter::repeat(0));
+                    let labels = labels.take(known.triangles.len()).collect();
+                    let pairs = neighbours.as_ref().map(|pairs| {
+                        let pairs = pairs.iter();
+                        pairs.map(|[a, b]| [label(a), label(b)]).collect()
+                    });
+                    (labels, pairs)
+                });
+                // Labels of empty triangles are not looked at.
+                let mut all = vec![0; known.count];
+                for (&number, &label) in known
+                    .numbers
+                    .iter()
+                    .zip(known.labels.iter().flat_map(|it| &it.0))
+                {
+                    all[number as usize] = label;
+                }
+                let labels = known.labels.as_ref().map(|(_, neighbours)| Labels {
+                    of_triangles: &all,
+                    neighbours: neighbours.as_deref(),
+                });
+                let set = self.world.set_labels(known.id, labels);
+                set.expect("one for each triangle");
+            }
             Call::Near(a, b, radius) => {
                 let (Some(a), Some(b)) = (self.body(a), self.body(b)) else {
                     return;
@@ -796,6 +836,13 @@ impl<S: Scalar> Lived<S> {
             live.filter(|(empty, _)| !**empty)
                 .all(|(_, (known, group))| *known == group)
         );
+        let labels = self.world.labels(known.id).expect("the body is there");
+        assert_eq!(labels.is_some(), known.labels.is_some());
+        if let (Some(labels), Some((own, _))) = (labels, &known.labels) {
+            let numbers = known.numbers.iter();
+            let live = numbers.map(|&number| labels.of_triangles[number as usize]);
+            assert!(live.eq(own.iter().copied()));
+        }
         let thickness = self.world.thickness(known.id).expect("the body is there");
         let rest = self
             .world
@@ -1076,7 +1123,9 @@ impl<S: Scalar> Lived<S> {
     fn itself(&mut self, body: usize) {
         let known = &self.known[body];
         let expected = reference::self_intersection_pairs(&known.triangles, &known.positions);
-        let expected = numbered(known, known, expected.expect("the body was taken"));
+        let mut expected = expected.expect("the body was taken");
+        reference::leave_out(&known.moving(), &mut expected);
+        let expected = numbered(known, known, expected);
         let answer = self.world.intersections(Selection::Within(known.id)).all();
         let found = answer.expect("the body is there").iter();
         assert!(found.map(Pair::triangles).eq(expected.iter().copied()));
@@ -1268,7 +1317,13 @@ impl<S: Scalar> Draft<S> {
         }
         let live = (0..).zip(&self.triangles);
         let live = live.filter_map(|(number, corners)| Some((number, (*corners)?)));
+        let before = std::mem::take(&mut known.numbers);
         (known.numbers, known.triangles) = live.unzip();
+        if let Some((labels, _)) = &mut known.labels {
+            let before: BTreeMap<u32, u32> = before.into_iter().zip(labels.drain(..)).collect();
+            let label = |number| before.get(number).copied().unwrap_or(Labels::NONE);
+            *labels = known.numbers.iter().map(label).collect();
+        }
         known.count = self.triangles.len();
         known.empty = self.vertices.iter().map(Option::is_none).collect();
         let empty = Vertex {
@@ -1332,6 +1387,13 @@ impl<S> Known<S> {
             groups: Some(&self.groups),
             rest: self.rest.as_deref(),
             thickness: self.thickness.as_deref(),
+            labels: self
+                .labels
+                .as_ref()
+                .map(|(of_triangles, neighbours)| Labels {
+                    of_triangles,
+                    neighbours: neighbours.as_deref(),
+                }),
         }
     }
 }
@@ -1394,6 +1456,9 @@ fn close_triangles<S: Scalar>(a: &Known<S>, b: &Known<S>, distance: f64) -> Vec<
                 pairs.push([i, j]);
             }
         }
+    }
+    if is_one {
+        reference::leave_out(&a.moving(), &mut pairs);
     }
     numbered(a, b, pairs)
 }

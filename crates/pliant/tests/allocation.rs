@@ -3,7 +3,7 @@
 mod common;
 
 use common::kinds::{Wanted, every_kind};
-use pliant::{BroadPhase, Degree, HitRows, Options, Partition, Selection, World};
+use pliant::{BroadPhase, Degree, HitRows, Labels, Options, Partition, Selection, World};
 use pliant_scenes::Scene;
 
 fn replay(scene: &Scene, options: Options, steps: &[u32]) {
@@ -28,6 +28,13 @@ fn replay(scene: &Scene, options: Options, steps: &[u32]) {
         .set_rest_positions(ids[0], Some(&shapes[0][0]))
         .unwrap();
     world.set_thickness(ids[0], 0.001).unwrap();
+    let of_triangles = &vec![0; scene.triangles(0).len()];
+    let neighbours = None;
+    let labels = Labels {
+        of_triangles,
+        neighbours,
+    };
+    world.set_labels(ids[ids.len() - 1], Some(labels)).unwrap();
     for &id in ids.iter().skip(2 + ids.len() / 2) {
         world.set_environment(id, 1).unwrap();
     }

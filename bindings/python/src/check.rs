@@ -194,7 +194,8 @@ impl Name {
     text_signature = "(*paths, itself=False, within=None, rest=None, crossing=False, \
         ignore_adjacent=False, swept=False, first=False, weld=True, weld_tolerance=0.0, \
         split=None, groups=None, ignore=None, baseline=None, skip_degenerate=False, \
-        crossing_edges=False, places=False, frames=None, clip=None, fps=30.0, threads=1, labels=None)"
+        crossing_edges=False, places=False, frames=None, clip=None, fps=30.0, threads=1, \
+        labels=None)"
 )]
 #[expect(
     clippy::too_many_arguments,

@@ -1,10 +1,10 @@
 //! State of a world as pickle writes it, and a world restored from it.
 //!
 //! Written are bodies by number, with shape, motion, filter, environment, vertex groups, rest
-//! shape, labels, thickness and loose box, and the ignored pairs. Options are arguments of the constructor
-//! that pickle calls. Trees are not written but built anew on the present shapes, which changes no
-//! answer. Numbers of edges are written once somebody has asked for them, so they stay; older
-//! pickles lack them. A state that is read is checked, for it is restored by the calls that a
+//! shape, labels, thickness and loose box, and the ignored pairs. Options are arguments of the
+//! constructor that pickle calls. Trees are not written but built anew on the present shapes, which
+//! changes no answer. Numbers of edges are written once somebody has asked for them, so they stay;
+//! older pickles lack them. A state that is read is checked, for it is restored by the calls that a
 //! caller would make.
 
 use crate::answers::{Any, Owned, Rows};

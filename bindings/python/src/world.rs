@@ -583,7 +583,7 @@ impl World {
     /// They are for the parts of a character. Pairs of triangles of the body with such labels are
     /// left out of intersections, contacts, adjacent contacts and close pairs. Labels are
     /// neighbours if a vertex has triangles of both, or, if neighbours is given, as its rows (k, 2)
-    /// say. A vertex or an edge has the labels of all its triangles; a pair of elements is left out
+    /// say. A vertex or an edge has the labels of all its triangles. A pair of elements is left out
     /// if each label of one is equal or next to each of the other. A face labelled 2^32 - 1 is left
     /// out of nothing. None takes all labels away. Other questions look past labels: crossing
     /// edges, candidates, impacts, free steps, clearance.

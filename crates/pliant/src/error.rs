@@ -42,11 +42,12 @@ pub enum ErrorKind {
         /// The vertices the body has.
         vertices: usize,
     },
-    /// The number of positions, groups or thicknesses is not the number of vertices of the body.
+    /// The number of positions, groups or thicknesses is not the number of vertices of the body. Or
+    /// the number of labels is not that of triangles.
     WrongLength {
-        /// `"positions"`, `"rest positions"`, `"groups"` or `"thicknesses"`.
+        /// `"positions"`, `"rest positions"`, `"groups"`, `"thicknesses"` or `"labels"`.
         what: &'static str,
-        /// Vertices of the body.
+        /// Vertices of the body, or triangles.
         expected: usize,
         /// How many were given.
         found: usize,
@@ -123,11 +124,11 @@ pub enum ErrorKind {
         /// Pairs at the end.
         end: usize,
     },
-    /// A coordinate of a pair of elements is NaN, infinite, or larger than `f32::MAX` in magnitude.
+    /// A coordinate of a single pair is NaN, infinite, or larger than `f32::MAX` in magnitude.
     BadCorner {
         /// The pair, counted from 0.
         pair: usize,
-        /// Its corner, from 0 to 3.
+        /// Its corner, from 0 to 3, or of two triangles from 0 to 5.
         corner: usize,
         /// Its position.
         position: [f64; 3],
@@ -254,11 +255,17 @@ impl fmt::Display for ErrorKind {
                 what,
                 expected,
                 found,
-            } => write!(
-                f,
-                "{found} {what} for {expected} vertices; give one for each vertex, empty ones \
-                 included"
-            ),
+            } => {
+                let (all, each) = match *what {
+                    "labels" => ("triangles", "triangle"),
+                    _ => ("vertices", "vertex"),
+                };
+                write!(
+                    f,
+                    "{found} {what} for {expected} {all}; give one for each {each}, empty ones \
+                     included"
+                )
+            }
             Self::BadPosition { vertex, position } => write!(
                 f,
                 "vertex {vertex} is at {position:?}; coordinates must be finite and at most {:e} \

@@ -67,6 +67,8 @@
 //! - **Impacts**: [`World::vertex_triangle_impacts`],
 //!   [`edge_edge_impacts`](World::edge_edge_impacts), [`first_impact`](World::first_impact). For
 //!   single pairs: [`vertex_triangle_impacts`], [`edge_edge_impacts`].
+//! - **Single pairs, without a world**: besides these, [`vertex_triangle_distances`],
+//!   [`edge_edge_distances`], [`PairDistance`], [`triangle_contacts`].
 //! - **How far all may go**: [`World::free_step`],
 //!   [`collision_free_step`](World::collision_free_step).
 //! - **Meshes that change**: [`World::edit`], [`Edit`], [`apply`](World::apply), [`Edited`],
@@ -126,6 +128,7 @@ mod kernels;
 mod labels;
 mod mesh;
 mod options;
+mod pairs;
 mod queries;
 mod selection;
 mod sort;
@@ -148,18 +151,19 @@ pub use ids::BodyId;
 pub use kernels::Instructions;
 pub use labels::Labels;
 pub use options::{BroadPhase, Degree, Options, Partition, Update};
+#[doc(hidden)]
+pub use pairs::pair_impacts;
+pub use pairs::{
+    PairDistance, edge_edge_distances, edge_edge_impacts, triangle_contacts,
+    vertex_triangle_distances, vertex_triangle_impacts,
+};
 pub use pliant_exact::{End, Feature};
 pub use queries::hits::*;
 pub use selection::Selection;
 pub use statistics::Statistics;
 #[doc(hidden)]
 pub use threads::{Clock, RecordedPart};
-#[doc(hidden)]
-pub use world::pair_impacts;
-pub use world::{
-    FreeStep, Fused, InContact, Interruptible, Piece, Query, Scalar, World, edge_edge_impacts,
-    vertex_triangle_impacts,
-};
+pub use world::{FreeStep, Fused, InContact, Interruptible, Piece, Query, Scalar, World};
 
 /// Brute-force references of every kind of question: slow, and obviously right.
 ///

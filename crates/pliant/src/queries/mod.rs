@@ -40,8 +40,8 @@ pub(crate) mod hits {
 pub(crate) use adjacent::{AdjacentSearch, AdjacentSink, StarredBody, TreeAdjacent};
 pub(crate) use candidates::{Candidates, EdgeEdgeCandidates, Margin, VertexTriangleCandidates};
 pub(crate) use close::{
-    Close, Measurable, NearTriangles, NearestPair, close, closest_of_triangles, corners_of,
-    measure_all,
+    Close, Measurable, NearTriangles, NearestPair, close, closest_of, closest_of_triangles,
+    corners_of, measure_all,
 };
 pub(crate) use contacts::Contacts;
 pub(crate) use crossing_edges::CrossingEdges;

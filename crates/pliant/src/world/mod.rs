@@ -45,7 +45,6 @@ mod verbs;
 pub use free_step::{FreeStep, InContact};
 pub use handle::World;
 pub use interruptible::Interruptible;
-pub use kinds::impacts::pairs::{edge_edge_impacts, pair_impacts, vertex_triangle_impacts};
 pub(crate) use kinds::reference;
 pub(crate) use named::NamedBodies;
 pub use pieces::{Fused, Piece};

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A folder, or a file of the crate's root, and the folders that it may use.
-const LAYERS: [(&str, &[&str]); 27] = [
+const LAYERS: [(&str, &[&str]); 28] = [
     ("held", &[]),
     ("ids", &[]),
     ("options", &[]),
@@ -145,6 +145,12 @@ const LAYERS: [(&str, &[&str]); 27] = [
             "all_pairs",
         ],
     ),
+    (
+        "pairs",
+        &[
+            "error", "geometry", "kernels", "queries", "threads", "world",
+        ],
+    ),
     ("changes", &["ids", "edit", "queries", "world"]),
     ("curves", &["ids", "error", "queries", "world"]),
     (
@@ -186,9 +192,9 @@ const EXPORTED: [(&str, &str); 32] = [
     ("VertexTriangle", "queries"),
     ("VertexTriangleImpact", "queries"),
     ("World", "world"),
-    ("edge_edge_impacts", "world"),
+    ("edge_edge_impacts", "pairs"),
     ("kernels", "kernels"),
-    ("vertex_triangle_impacts", "world"),
+    ("vertex_triangle_impacts", "pairs"),
 ];
 
 /// Structs of `bodies` with visible fields, and the reason; all other structs keep theirs private.

@@ -42,6 +42,7 @@ mod metamorphic;
 mod motions;
 mod never_stale;
 mod oracle;
+mod pairs;
 mod pieces;
 mod readme;
 mod refusals;

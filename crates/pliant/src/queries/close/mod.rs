@@ -12,6 +12,7 @@ mod hit;
 mod measured;
 mod triangles;
 
+pub(crate) use closest::closest_of;
 pub(super) use closest::primitives;
 pub(crate) use elements::{Close, ElementCandidates};
 pub(super) use elements::{corners_at, length};

@@ -59,7 +59,7 @@ mod close;
 
 mod close_triangles;
 
-pub(super) mod impacts;
+mod impacts;
 
 /// References of all kinds, for the crate's `reference`.
 pub(crate) mod reference {

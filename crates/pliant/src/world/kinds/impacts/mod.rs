@@ -1,7 +1,5 @@
-//! Queries for impacts: elements that meet during a motion, and when; also for single pairs
-//! (`pairs`).
+//! Queries for impacts: elements that meet during a motion, and when.
 
-pub(crate) mod pairs;
 pub(crate) mod reference;
 
 use crate::collide::{Ask, OfKind, Request};

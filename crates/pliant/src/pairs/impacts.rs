@@ -4,11 +4,12 @@
 //! [`World::vertex_triangle_impacts`](crate::World::vertex_triangle_impacts) makes; separating
 //! directions are tried for eight pairs side by side.
 
+use super::{check, padded};
 use crate::error::{Error, ErrorKind};
 use crate::kernels::apart::apart;
 use crate::kernels::{Instructions, dispatch};
 use crate::threads::Interrupt;
-use crate::world::scalar::Scalar;
+use crate::world::Scalar;
 use pliant_exact::motion::{Grid, Moving, impact};
 
 /// Finds when vertices first meet triangles that move, pair by pair, shape (k, 4, 3) at the start
@@ -120,7 +121,8 @@ pub fn pair_impacts<S: Scalar>(
         for lane in 0..8 {
             // Lanes that the last group does not fill take its first pair.
             let of = if lane < start.len() { lane } else { 0 };
-            eight[lane] = [start[of], end[of]].map(|corners| corners.map(padded));
+            eight[lane] = [start[of], end[of]]
+                .map(|corners| corners.map(|corner| padded(corner.map(Scalar::to_f64))));
         }
         let mut corners = [[&eight[0][0][0]; 8]; 8];
         for (lane, pair) in eight.iter().enumerate() {
@@ -145,27 +147,4 @@ pub fn pair_impacts<S: Scalar>(
         }
     }
     Ok(all)
-}
-
-fn padded<S: Scalar>(corner: [S; 3]) -> [f64; 4] {
-    let [x, y, z] = corner.map(Scalar::to_f64);
-    [x, y, z, z]
-}
-
-/// Refuses coordinates that no body may have.
-fn check<S: Scalar>(corners: &[[[S; 3]; 4]]) -> Result<(), Error> {
-    for (pair, corners) in corners.iter().enumerate() {
-        for (corner, position) in corners.iter().enumerate() {
-            let position = position.map(Scalar::to_f64);
-            if !position.iter().all(|x| x.abs() <= f64::from(f32::MAX)) {
-                return Err(ErrorKind::BadCorner {
-                    pair,
-                    corner,
-                    position,
-                }
-                .of_query());
-            }
-        }
-    }
-    Ok(())
 }

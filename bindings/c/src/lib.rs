@@ -1,0 +1,26 @@
+//! The functions of `include/pliant.h`, which documents them.
+//!
+//! Pointers of the caller are read and written here, and nowhere else in the project.
+//!
+//! | file | what |
+//! |---|---|
+//! | `status` | statuses, errors, and what becomes of a panic |
+//! | `points` | coordinates of the caller, wherever they lie |
+//! | `pairs` | functions on single pairs, without a world |
+
+mod pairs;
+mod points;
+mod status;
+
+pub use pairs::*;
+pub use points::{PliantPoints, PliantScalar};
+pub use status::{PliantError, PliantStatus};
+
+/// `pliant_version`.
+#[unsafe(no_mangle)]
+pub extern "C" fn pliant_version() -> u32 {
+    let part = |text: &str| text.parse::<u32>().unwrap_or(0);
+    let major = part(env!("CARGO_PKG_VERSION_MAJOR"));
+    let minor = part(env!("CARGO_PKG_VERSION_MINOR"));
+    major << 16 | minor << 8 | part(env!("CARGO_PKG_VERSION_PATCH"))
+}

@@ -1,0 +1,145 @@
+//! The header says what the crate has, and programs in C and C++ that include it do what they
+//! should.
+
+use std::collections::BTreeSet;
+use std::env::{consts, current_exe};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn header() -> String {
+    fs::read_to_string(root().join("include/pliant.h")).unwrap()
+}
+
+/// The header without comments, each run of white space as one blank.
+fn code() -> String {
+    let header = header();
+    let mut code = String::new();
+    let mut rest = &header[..];
+    while let Some(start) = rest.find("/*") {
+        code.push_str(&rest[..start]);
+        let end = rest[start..].find("*/").unwrap();
+        rest = &rest[start + end + 2..];
+    }
+    code.push_str(rest);
+    code.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Names of functions with their count of parameters, behind each `mark`.
+fn functions(text: &str, mark: &str) -> BTreeSet<(String, usize)> {
+    let mut all = BTreeSet::new();
+    for (at, _) in text.match_indices(mark) {
+        let rest = &text[at + mark.len()..];
+        let Some(open) = rest.find('(') else { continue };
+        let name = rest[..open].trim();
+        if !name.starts_with("pliant_") || !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
+            continue;
+        }
+        let list = &rest[open + 1..open + rest[open..].find(')').unwrap()];
+        let parameters = list.split(',').map(str::trim);
+        let count = parameters.filter(|it| !["", "void"].contains(it)).count();
+        all.insert((name.to_owned(), count));
+    }
+    all
+}
+
+#[test]
+fn the_header_has_the_functions_of_the_crate() {
+    let mut exported = BTreeSet::new();
+    for file in fs::read_dir(root().join("src")).unwrap() {
+        let text = fs::read_to_string(file.unwrap().path()).unwrap();
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        exported.extend(functions(&text, "extern \"C\" fn "));
+    }
+    let declared = functions(&code().replace('*', " "), " ");
+    assert!(exported.len() > 5);
+    assert_eq!(declared, exported);
+}
+
+#[test]
+fn the_version_is_that_of_the_crate() {
+    let header = header();
+    let part = |name: &str| {
+        let mark = format!("#define PLIANT_VERSION_{name} ");
+        let rest = header.split(&mark).nth(1).unwrap();
+        rest.lines().next().unwrap().to_owned()
+    };
+    let parts = ["MAJOR", "MINOR", "PATCH"].map(part).join(".");
+    assert_eq!(parts, env!("CARGO_PKG_VERSION"));
+}
+
+#[test]
+fn every_statement_of_the_header_is_for_a_reader_of_100_columns() {
+    let header = header();
+    let long: Vec<_> = header.lines().filter(|line| line.len() > 100).collect();
+    assert_eq!(long, [""; 0]);
+}
+
+/// The folder that has the libraries beside this program.
+fn libraries() -> PathBuf {
+    let program = current_exe().unwrap();
+    let folders = program.ancestors().skip(1).take(2);
+    let name = format!("{}pliant_c{}", consts::DLL_PREFIX, consts::DLL_SUFFIX);
+    let mut with_library = folders.filter(|folder| folder.join(&name).is_file());
+    with_library
+        .next()
+        .expect("cargo builds the library first")
+        .to_owned()
+}
+
+/// Whether a compiler is there; says so if not.
+fn is_there(compiler: &str) -> bool {
+    let is = Command::new(compiler).arg("--version").output().is_ok();
+    if !is {
+        eprintln!("skipped: there is no {compiler}");
+    }
+    is
+}
+
+/// Compiles a file with the header and the library, and runs it.
+fn run(compiler: &str, flags: &[&str], file: &str) {
+    let folder = tempfile::tempdir().unwrap();
+    let (program, libraries) = (folder.path().join("program"), libraries());
+    let warnings = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"];
+    let compiled = Command::new(compiler)
+        .args(flags)
+        .args(warnings)
+        .arg("-I")
+        .arg(root().join("include"))
+        .arg(root().join(file))
+        .arg("-o")
+        .arg(&program)
+        .arg("-L")
+        .arg(&libraries)
+        .arg(format!("-Wl,-rpath,{}", libraries.display()))
+        .args(["-x", "none", "-lpliant_c", "-lm"])
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&compiled.stderr);
+    assert!(compiled.status.success(), "{compiler} {flags:?}: {said}");
+    let ran = Command::new(program).output().unwrap();
+    let said = String::from_utf8_lossy(&ran.stderr);
+    assert!(ran.status.success(), "{compiler} {flags:?}: {said}");
+}
+
+#[test]
+fn programs_in_c_and_in_cpp_do_what_they_should() {
+    for compiler in ["cc", "clang"] {
+        if is_there(compiler) {
+            run(compiler, &["-std=c11", "-g"], "tests/pairs.c");
+        }
+    }
+    for compiler in ["c++", "clang++"] {
+        if is_there(compiler) {
+            run(
+                compiler,
+                &["-std=c++17", "-g", "-x", "c++"],
+                "tests/pairs.c",
+            );
+        }
+    }
+}

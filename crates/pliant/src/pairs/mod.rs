@@ -1,0 +1,38 @@
+//! Single pairs of elements or of triangles, without a world: for callers with a search of their
+//! own.
+//!
+//! Each answer is the one that a [`World`](crate::World) gives for such a pair. Pairs are looked at
+//! in order, side by side in lanes, on one thread.
+
+mod contacts;
+mod distances;
+mod impacts;
+
+use crate::error::{Error, ErrorKind};
+use crate::world::Scalar;
+pub use contacts::triangle_contacts;
+pub use distances::{PairDistance, edge_edge_distances, vertex_triangle_distances};
+pub use impacts::{edge_edge_impacts, pair_impacts, vertex_triangle_impacts};
+
+/// A corner in four lanes, the last coordinate twice.
+fn padded<S: Copy>([x, y, z]: [S; 3]) -> [S; 4] {
+    [x, y, z, z]
+}
+
+/// Refuses coordinates that no body may have.
+fn check<S: Scalar, const C: usize>(pairs: &[[[S; 3]; C]]) -> Result<(), Error> {
+    for (pair, corners) in pairs.iter().enumerate() {
+        for (corner, position) in corners.iter().enumerate() {
+            let position = position.map(Scalar::to_f64);
+            if !position.iter().all(|x| x.abs() <= f64::from(f32::MAX)) {
+                return Err(ErrorKind::BadCorner {
+                    pair,
+                    corner,
+                    position,
+                }
+                .of_query());
+            }
+        }
+    }
+    Ok(())
+}

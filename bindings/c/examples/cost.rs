@@ -1,4 +1,4 @@
-//! What the door costs: calls of the C functions over calls of Rust's, on the same pairs.
+//! Cost of the door: calls of the C functions over calls of Rust's, on the same pairs.
 //!
 //! Rows as Rust has them should cost at most 1.05, and columns as Eigen has them 1.3. Figures are
 //! medians of rounds in turn.

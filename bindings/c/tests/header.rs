@@ -100,8 +100,9 @@ fn is_there(compiler: &str) -> bool {
     is
 }
 
-/// Compiles a file with the header and the library, and runs it.
-fn run(compiler: &str, flags: &[&str], file: &str) {
+/// Compiles a file with the header and the library, and runs it, by another program if there is
+/// one. Returns what it printed.
+fn run(compiler: &str, flags: &[&str], file: &Path, by: &[&str]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let (program, libraries) = (folder.path().join("program"), libraries());
     let warnings = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"];
@@ -110,7 +111,7 @@ fn run(compiler: &str, flags: &[&str], file: &str) {
         .args(warnings)
         .arg("-I")
         .arg(root().join("include"))
-        .arg(root().join(file))
+        .arg(file)
         .arg("-o")
         .arg(&program)
         .arg("-L")
@@ -121,25 +122,63 @@ fn run(compiler: &str, flags: &[&str], file: &str) {
         .unwrap();
     let said = String::from_utf8_lossy(&compiled.stderr);
     assert!(compiled.status.success(), "{compiler} {flags:?}: {said}");
-    let ran = Command::new(program).output().unwrap();
+    let mut command = by.to_vec();
+    command.push(program.to_str().unwrap());
+    let ran = Command::new(command[0])
+        .args(&command[1..])
+        .output()
+        .unwrap();
     let said = String::from_utf8_lossy(&ran.stderr);
     assert!(ran.status.success(), "{compiler} {flags:?}: {said}");
+    String::from_utf8(ran.stdout).unwrap()
 }
 
 #[test]
 fn programs_in_c_and_in_cpp_do_what_they_should() {
+    let file = root().join("tests/pairs.c");
     for compiler in ["cc", "clang"] {
         if is_there(compiler) {
-            run(compiler, &["-std=c11", "-g"], "tests/pairs.c");
+            run(compiler, &["-std=c11", "-g"], &file, &[]);
         }
     }
     for compiler in ["c++", "clang++"] {
         if is_there(compiler) {
-            run(
-                compiler,
-                &["-std=c++17", "-g", "-x", "c++"],
-                "tests/pairs.c",
-            );
+            run(compiler, &["-std=c++17", "-g", "-x", "c++"], &file, &[]);
         }
     }
+}
+
+#[test]
+#[ignore = "for releases: needs the sanitizers and valgrind"]
+fn programs_run_clean_under_sanitizers_and_valgrind() {
+    let file = root().join("tests/pairs.c");
+    let sanitized = [
+        "-std=c11",
+        "-g",
+        "-fsanitize=address,undefined",
+        "-fno-sanitize-recover",
+    ];
+    run("cc", &sanitized, &file, &[]);
+    let valgrind = [
+        "valgrind",
+        "--quiet",
+        "--error-exitcode=9",
+        "--leak-check=full",
+    ];
+    run("cc", &["-std=c11", "-g"], &file, &valgrind);
+}
+
+#[test]
+fn the_program_of_the_readme_says_when() {
+    if !is_there("cc") {
+        return;
+    }
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    let program = readme.split("```c\n").nth(1).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("fall.c");
+    fs::write(&file, program.split("```").next().unwrap()).unwrap();
+    let said = run("cc", &["-std=c11"], &file, &[]);
+    let expected = "the first meets between 0.333333 and 0.333334\nthe second never meets\n";
+    assert_eq!(said, expected);
 }

@@ -20,6 +20,7 @@ stands for the date in names of records:
     $P ../compare_codim_with_ipctk.py > codim-ipctk-DATE.txt
     $P ../compare_distance_with_fcl.py > close-fcl-DATE.txt
     cargo run --release -p pliant-bench --features peers --example edits > edits-DATE.txt
+    cargo run --release -p pliant-c --example cost > c-DATE.txt
     python3 ../results.py DATE
 """
 
@@ -282,6 +283,7 @@ def page(record, date):
     near_aims = near_record.claims("near")
     ipctk, header, beside = beside_ipctk()
     codim, codim_header, codim_found = beside_ipctk_codimensional()
+    door, door_header, door_rows = beside_rust()
     close = newest("close-*.json")
     close_record = Record(close)
     close_aims = close_record.claims("close")
@@ -379,6 +381,16 @@ random cables, nets, clouds and sheets):
 of edges and vertices, {codim_found["vv"]} of vertices. All are ours, too; \
 {codim_found["its_alone"]} are its alone. Distances of
 {codim_found["close"]} close pairs agree.
+
+## From C
+
+Calls of C on single pairs over calls of Rust (`cargo run --release -p pliant-c --example cost`, \
+[record](records/{door}); {door_header}).
+Points lie in rows, or in columns as Eigen has them. The aims were 1.05 and 1.3.
+
+| | ns a pair in Rust | rows | columns |
+|---|---|---|---|
+{door_rows}
 
 ## What is close
 
@@ -532,13 +544,22 @@ def beside_ipctk():
     return file.name, lines[0], "\n".join(rows)
 
 
+def beside_rust():
+    """Newest cost of calls from C, in the form of `beside_ipctk`."""
+    file = newest("c-*.txt")
+    lines = file.read_text().splitlines()
+    rows = [line.split() for line in lines if line.startswith("pliant_")]
+    assert rows, file
+    return file.name, lines[0].split(":")[0], "\n".join(f"| {' | '.join(row)} |" for row in rows)
+
+
 def beside_ipctk_codimensional():
     """Newest comparison of edges and points with ipctk: its name, header, and totals in words."""
     file = newest("codim-ipctk-*.txt")
     lines = file.read_text().splitlines()
-    names = re.split(r"\s{2,}", lines[2].strip())
+    names = lines[2].split()
     # The last row is of all scenes.
-    found = dict(zip(names, re.split(r"\s{2,}", lines[-1].strip())[1:]))
+    found = dict(zip(names, lines[-1].split()[1:]))
     assert found["its_alone"] == found["errors"] == "0", file
     return file.name, lines[0], found
 

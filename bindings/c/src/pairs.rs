@@ -100,26 +100,18 @@ impl Distances {
     }
 
     fn find<S: Scalar>(&self, corners: &Corners<4>) -> Result<(), Refused> {
-        let find = if self.are_edges {
-            pliant::edge_edge_distances::<S>
-        } else {
-            pliant::vertex_triangle_distances::<S>
-        };
         some_at_a_time([corners], |first, [pairs]| {
-            let found = find(pairs).map_err(|error| behind(first, error))?;
-            for (pair, found) in (first..).zip(found) {
-                let PairDistance {
-                    distance,
-                    direction,
-                    weights,
-                    features,
-                } = found;
-                self.distance.set(pair, [distance]);
-                self.direction.set(pair, direction.unwrap_or_default());
-                self.weights.set(pair, weights);
-                self.features.set(pair, [number_of(features)]);
-            }
-            Ok(())
+            let mut pair = first;
+            let write = |found: PairDistance| {
+                self.distance.set(pair, [found.distance]);
+                self.direction
+                    .set(pair, found.direction.unwrap_or_default());
+                self.weights.set(pair, found.weights);
+                self.features.set(pair, [number_of(found.features)]);
+                pair += 1;
+            };
+            let done = pliant::pair_distances::<S>(self.are_edges, pairs, write);
+            done.map_err(|error| behind(first, error))
         })
     }
 }

@@ -62,7 +62,7 @@ pub(crate) struct Corners<'c, const C: usize> {
     scalar: PliantScalar,
 }
 
-/// Pairs that are copied at a time: few calls, and what is copied stays in the cache.
+/// Pairs that are looked at before answers are written: they, and copies, stay in the cache.
 const AT_ONCE: usize = 1024;
 
 impl<'c, const C: usize> Corners<'c, C> {
@@ -143,15 +143,18 @@ pub(crate) fn some_at_a_time<S: Scalar, const C: usize, const L: usize>(
     lists: [&Corners<C>; L],
     mut each: impl FnMut(usize, [&[[[S; 3]; C]]; L]) -> Result<(), Refused>,
 ) -> Result<(), Refused> {
-    let in_place = lists.map(Corners::in_place::<S>);
-    if in_place.iter().all(Option::is_some) {
-        return each(0, in_place.map(Option::unwrap_or_default));
-    }
     let count = lists[0].count;
+    let in_place = lists.map(Corners::in_place::<S>);
     let mut copies: [Vec<[[S; 3]; C]>; L] = [(); L].map(|()| Vec::new());
     let mut first = 0;
     while first < count {
         let end = count.min(first + AT_ONCE);
+        if in_place.iter().all(Option::is_some) {
+            let some = in_place.map(|all| &all.unwrap_or_default()[first..end]);
+            each(first, some)?;
+            first = end;
+            continue;
+        }
         for (copy, list) in copies.iter_mut().zip(lists) {
             copy.clear();
             copy.extend((first..end).map(|pair| {

@@ -151,12 +151,12 @@ pub use ids::BodyId;
 pub use kernels::Instructions;
 pub use labels::Labels;
 pub use options::{BroadPhase, Degree, Options, Partition, Update};
-#[doc(hidden)]
-pub use pairs::pair_impacts;
 pub use pairs::{
     PairDistance, edge_edge_distances, edge_edge_impacts, triangle_contacts,
     vertex_triangle_distances, vertex_triangle_impacts,
 };
+#[doc(hidden)]
+pub use pairs::{pair_distances, pair_impacts};
 pub use pliant_exact::{End, Feature};
 pub use queries::hits::*;
 pub use selection::Selection;

@@ -4,6 +4,7 @@ use crate::common::{check, folder};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
+use tempfile::TempDir;
 
 /// A strip of six triangles, folded to and fro, so that all lie in one square; the last two as one
 /// polygon.
@@ -31,8 +32,8 @@ fn labels(folder: &Path, name: &str, labels: &[i64]) {
     fs::write(folder.join(name), bytes).unwrap();
 }
 
-#[test]
-fn equal_and_neighbouring_labels_are_left_out() {
+/// A folder with a strip that moves, one that gets another mesh, and labels for them.
+fn strips() -> TempDir {
     let folder = folder(&[
         ("arm_0.obj", folded(0.0)),
         ("arm_1.obj", folded(0.5)),
@@ -49,6 +50,13 @@ fn equal_and_neighbouring_labels_are_left_out() {
     labels(at, "none.npy", &[-1; 6]);
     labels(at, "many.npy", &[1; 7]);
     labels(at, "large.npy", &[0, 0, 7, 7, 2, 1 << 32]);
+    folder
+}
+
+#[test]
+fn equal_and_neighbouring_labels_are_left_out() {
+    let folder = strips();
+    let at = folder.path();
     let all = json(at, &["arm_*.obj"]);
     let of = |said: &Value, frame: usize| {
         let frame = &said["frames"][frame];
@@ -95,7 +103,12 @@ fn equal_and_neighbouring_labels_are_left_out() {
         json(at, &two)["frames"][0]["count"],
         unlabelled["frames"][0]["count"]
     );
+}
 
+#[test]
+fn labels_that_fit_nothing_are_refused() {
+    let folder = strips();
+    let at = folder.path();
     for (arguments, words) in [
         (
             &["arm_*.obj", "--labels", "0=many.npy"][..],

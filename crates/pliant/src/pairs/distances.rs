@@ -67,9 +67,24 @@ fn distances<S: Scalar>(
     are_edges: bool,
     pairs: &[[[S; 3]; 4]],
 ) -> Result<Vec<PairDistance>, Error> {
+    let mut all = Vec::with_capacity(pairs.len());
+    pair_distances(are_edges, pairs, |found| all.push(found))?;
+    Ok(all)
+}
+
+/// Measures pairs of vertices and triangles or of edges, and shows each to `take`, in order.
+///
+/// # Errors
+///
+/// The errors of [`vertex_triangle_distances`]; nothing is shown then.
+#[doc(hidden)]
+pub fn pair_distances<S: Scalar>(
+    are_edges: bool,
+    pairs: &[[[S; 3]; 4]],
+    mut take: impl FnMut(PairDistance),
+) -> Result<(), Error> {
     check(pairs)?;
     let interrupt = Interrupt::default();
-    let mut all = Vec::with_capacity(pairs.len());
     dispatch!(Instructions::widest(), i => {
         for some in pairs.chunks(4) {
             // Lanes that the last group does not fill take its first pair.
@@ -78,14 +93,15 @@ fn distances<S: Scalar>(
                 four[lane] = corners.map(padded);
             }
             let corners = [0, 1, 2, 3].map(|lane| four[lane].each_ref());
-            closest_of(i, are_edges, &corners, some.len(), &interrupt, |_, closest: &Closest| {
+            let interrupt = &interrupt;
+            closest_of(i, are_edges, &corners, some.len(), interrupt, |_, closest: &Closest| {
                 let [x, y] = closest.along;
                 let weights = if are_edges {
                     [1.0 - x, x, 1.0 - y, y]
                 } else {
                     [1.0, (1.0 - x - y).max(0.0), x, y]
                 };
-                all.push(PairDistance {
+                take(PairDistance {
                     distance: closest.distance,
                     direction: (closest.distance != 0.0).then_some(closest.direction),
                     weights,
@@ -94,7 +110,7 @@ fn distances<S: Scalar>(
             });
         }
     });
-    Ok(all)
+    Ok(())
 }
 
 /// Features with these weights.

@@ -11,7 +11,7 @@ mod impacts;
 use crate::error::{Error, ErrorKind};
 use crate::world::Scalar;
 pub use contacts::triangle_contacts;
-pub use distances::{PairDistance, edge_edge_distances, vertex_triangle_distances};
+pub use distances::{PairDistance, edge_edge_distances, pair_distances, vertex_triangle_distances};
 pub use impacts::{edge_edge_impacts, pair_impacts, vertex_triangle_impacts};
 
 /// A corner in four lanes, the last coordinate twice.

@@ -7,7 +7,7 @@ use crate::common::{Lcg, every_configuration, share, sheet};
 use pliant::reference::{self, Moving};
 use pliant::{
     BodyId, CloseEdgeEdge, CloseVertexTriangle, ClosestFeatures, EdgeEdge, ErrorKind, Labels,
-    Options, Scalar, Selection, VertexTriangle, World,
+    Options, Pair, Scalar, Selection, VertexTriangle, World,
 };
 use pliant_exact::Length;
 use std::collections::{BTreeMap, BTreeSet};
@@ -366,10 +366,7 @@ fn check_intersections<S: Scalar>(world: &mut World<S>, body: &Known<S>, when: &
     assert_eq!(first.is_some(), !all.is_empty(), "{when}");
     assert!(first.is_none_or(|first| all.contains(&first.triangles())));
     let found = world.intersections(of).all().unwrap().iter();
-    assert!(
-        found.map(|pair| pair.triangles()).eq(all.iter().copied()),
-        "{when}"
-    );
+    assert!(found.map(Pair::triangles).eq(all.iter().copied()), "{when}");
     let found = world.contacts(of).all().unwrap().iter();
     assert!(found.map(|it| it.pair.triangles()).eq(all), "{when}");
 }

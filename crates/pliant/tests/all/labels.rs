@@ -4,7 +4,7 @@
 
 use crate::common::{Lcg, covering_configurations, sheet};
 use pliant::reference::{self, Moving};
-use pliant::{BodyId, ErrorKind, Labels, Selection, World};
+use pliant::{BodyId, ErrorKind, Labels, Pair, Selection, World};
 
 /// Labels whose neighbours have a vertex in common.
 fn of(of_triangles: &[u32]) -> Labels<'_> {
@@ -17,7 +17,7 @@ fn of(of_triangles: &[u32]) -> Labels<'_> {
 /// Triangles of one body that intersect.
 fn hits(world: &mut World<f64>, body: BodyId) -> Vec<[u32; 2]> {
     let all = world.intersections(Selection::Within(body)).all().unwrap();
-    all.iter().map(|pair| pair.triangles()).collect()
+    all.iter().map(Pair::triangles).collect()
 }
 
 /// A crumpled sheet.

@@ -18,7 +18,7 @@ fn corner(random: &mut Lcg, is_lattice: bool) -> [f64; 3] {
 }
 
 fn pairs<const C: usize>(random: &mut Lcg, count: usize) -> Vec<[[f64; 3]; C]> {
-    let pair = |place: usize| [(); C].map(|()| corner(random, place % 2 == 0));
+    let pair = |place: usize| [(); C].map(|()| corner(random, place.is_multiple_of(2)));
     (0..count).map(pair).collect()
 }
 

@@ -590,8 +590,8 @@ impl World {
     ///
     /// Labels stay until the body is given another mesh. A face that an edit adds has none.
     ///
-    /// Raises pliant.Error: NoSuchBody, BadArray, WrongLength. Cost: O(m), and O(m log m) of the
-    /// next question.
+    /// Raises pliant.Error: NoSuchBody, BadArray, WrongLength. Cost: O(n + m log m), and as much
+    /// again for the next question after edits.
     #[pyo3(signature = (body, labels, neighbours=None))]
     fn set_labels(
         &self,

@@ -162,12 +162,27 @@ impl<S: Coordinate> Body<S> {
 
     /// Sets the labels of triangles, or takes them away.
     pub(crate) fn set_labels(&mut self, labels: Option<Labels>) -> Result<(), ErrorKind> {
-        self.filter.set_labels(labels, self.mesh.triangles().len())
+        let mesh = &self.mesh;
+        self.filter
+            .set_labels(labels, mesh.triangles(), mesh.vertex_count())
     }
 
     /// Labels of triangles, if there are any.
     pub(crate) fn labels(&self) -> Option<Labels<'_>> {
         self.filter.labels()
+    }
+
+    /// Finds which pairs labels leave out, unless that is known. O(m log m).
+    pub(crate) fn know_labels(&mut self) {
+        let mesh = &self.mesh;
+        self.filter
+            .know_labels(mesh.triangles(), mesh.vertex_count());
+    }
+
+    /// Whether labels leave out two triangles; they must be known.
+    pub(crate) fn leaves_out(&self, pair: [TreeTriangle; 2]) -> bool {
+        let labels = self.filter.known_labels();
+        labels.is_some_and(|labels| labels.leave_out(self.mesh.order(), pair))
     }
 
     /// Numbers the edges as another body with this mesh does.
@@ -416,9 +431,9 @@ impl<S: Coordinate> Body<S> {
         instructions: Instructions,
         executor: Executor,
     ) -> bool {
+        self.know_labels();
         let (order, threads) = (self.mesh.order(), (instructions, executor));
         self.filter.know_rest(order);
-        self.filter.know_labels(self.mesh.triangles(), order, None);
         self.thickness.know(order);
         let (shape, motion) = (&mut self.shape, &mut self.motion);
         shape.bring_into_tree_order(threads, order)
@@ -470,8 +485,6 @@ impl<S: Coordinate> Body<S> {
             return false;
         };
         self.filter.know_groups(order, elements);
-        let triangles = mesh.triangles();
-        self.filter.know_labels(triangles, order, Some(elements));
         let way = self.motion.on().zip(reach);
         let source = Grown {
             from: self.shape.view(order, origin),

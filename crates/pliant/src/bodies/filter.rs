@@ -43,7 +43,7 @@ impl<S: Real> Filter<S> {
         Self {
             groups: self.groups.as_ref().map(|groups| Box::new(groups.copy())),
             rest: self.rest.as_ref().map(|rest| Box::new(rest.copy())),
-            labels: self.labels.as_ref().map(|labels| Box::new(labels.copy())),
+            labels: self.labels.clone(),
             ..*self
         }
     }
@@ -138,9 +138,10 @@ impl<S: Real> Filter<S> {
     pub(crate) fn set_labels(
         &mut self,
         labels: Option<Labels>,
-        triangles: usize,
+        triangles: &[[u32; 3]],
+        vertices: usize,
     ) -> Result<(), ErrorKind> {
-        let labels = labels.map(|labels| BodyLabels::new(labels, triangles));
+        let labels = labels.map(|labels| BodyLabels::new(labels, triangles, vertices));
         self.labels = labels.transpose()?.map(Box::new);
         Ok(())
     }
@@ -150,17 +151,10 @@ impl<S: Real> Filter<S> {
         self.labels.as_ref().map(|labels| labels.callers())
     }
 
-    /// Finds which pairs labels leave out: of triangles, and of elements if they are given.
-    pub(crate) fn know_labels(
-        &mut self,
-        triangles: &[[u32; 3]],
-        order: &Order,
-        elements: Option<&Elements>,
-    ) {
-        match (&mut self.labels, elements) {
-            (None, _) => {}
-            (Some(labels), None) => labels.know(triangles, order),
-            (Some(labels), Some(elements)) => labels.know_elements(triangles, order, elements),
+    /// Finds which pairs labels leave out, unless that is known.
+    pub(crate) fn know_labels(&mut self, triangles: &[[u32; 3]], vertices: usize) {
+        if let Some(labels) = &mut self.labels {
+            labels.know(triangles, vertices);
         }
     }
 
@@ -181,9 +175,6 @@ impl<S: Real> Filter<S> {
         }
         if let Some(rest) = &mut self.rest {
             rest.forget_tree_order();
-        }
-        if let Some(labels) = &mut self.labels {
-            labels.forget_tree_order();
         }
     }
 

@@ -1,28 +1,34 @@
-//! Labels of a body's triangles, through edits and new orders.
+//! Labels of a body's triangles, through edits.
 
 use super::checks;
 use crate::error::ErrorKind;
 use crate::held::{self, Held};
 use crate::labels::Labels;
-use crate::mesh::{EMPTY, Elements, Order, Outcome};
+use crate::mesh::{EMPTY, Outcome};
 use crate::queries::LabelPairs;
 
 /// Labels of the triangles of a body, as the caller gave them, and what they leave out.
+#[derive(Clone)]
 pub(crate) struct BodyLabels {
     of_triangles: Vec<u32>,
     neighbours: Option<Vec<[u32; 2]>>,
-    /// In tree order, once known.
+    /// None after an edit, until a query asks.
     pairs: Option<LabelPairs>,
 }
 
 impl BodyLabels {
-    /// Takes labels over after checking that each of the triangles has one.
-    pub(crate) fn new(labels: Labels, triangles: usize) -> Result<Self, ErrorKind> {
-        checks::length("labels", triangles, labels.of_triangles.len())?;
+    /// Takes labels over after checking that each of the triangles has one. `vertices` is their
+    /// count.
+    pub(crate) fn new(
+        labels: Labels,
+        triangles: &[[u32; 3]],
+        vertices: usize,
+    ) -> Result<Self, ErrorKind> {
+        checks::length("labels", triangles.len(), labels.of_triangles.len())?;
         Ok(Self {
             of_triangles: labels.of_triangles.to_vec(),
             neighbours: labels.neighbours.map(<[_]>::to_vec),
-            pairs: None,
+            pairs: Some(LabelPairs::new(labels, triangles, vertices)),
         })
     }
 
@@ -34,32 +40,10 @@ impl BodyLabels {
         }
     }
 
-    /// Copies the labels, not what tree order makes of them.
-    pub(crate) fn copy(&self) -> Self {
-        Self {
-            of_triangles: self.of_triangles.clone(),
-            neighbours: self.neighbours.clone(),
-            pairs: None,
-        }
-    }
-
-    /// Finds which pairs of triangles are left out, unless that is known.
-    pub(crate) fn know(&mut self, triangles: &[[u32; 3]], order: &Order) {
+    /// Finds which pairs are left out, unless that is known.
+    pub(crate) fn know(&mut self, triangles: &[[u32; 3]], vertices: usize) {
         if self.pairs.is_none() {
-            self.pairs = Some(LabelPairs::new(self.callers(), triangles, order));
-        }
-    }
-
-    /// Finds which pairs of elements are left out, unless that is known.
-    pub(crate) fn know_elements(
-        &mut self,
-        triangles: &[[u32; 3]],
-        order: &Order,
-        elements: &Elements,
-    ) {
-        self.know(triangles, order);
-        if let Some(pairs) = &mut self.pairs {
-            pairs.know_elements(triangles, order, elements);
+            self.pairs = Some(LabelPairs::new(self.callers(), triangles, vertices));
         }
     }
 
@@ -68,14 +52,9 @@ impl BodyLabels {
         self.pairs.as_ref()
     }
 
-    /// Forgets tree order, because the mesh gets another one.
-    pub(crate) fn forget_tree_order(&mut self) {
-        self.pairs = None;
-    }
-
     /// Updates the labels after an edit. New triangles have none; others keep theirs.
     pub(crate) fn follow<S>(&mut self, outcome: &Outcome<S>) {
-        self.forget_tree_order();
+        self.pairs = None;
         self.of_triangles.resize(outcome.triangles, Labels::NONE);
         let changed = outcome.changed.iter();
         for &(triangle, _) in changed.filter(|(_, [old, new])| [*old, *new].contains(&EMPTY)) {

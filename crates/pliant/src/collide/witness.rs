@@ -137,7 +137,10 @@ impl<'b, const R: usize, S: Coordinate> Run<'b, R, S> {
             }
             for b in other.overlapping(self.boxes[a]) {
                 let pair = [self.first.plus(a as u32), other.first.plus(b as u32)];
-                if itself && self.body.mesh().order().share_a_vertex(pair[0], pair[1]) {
+                if itself
+                    && (self.body.mesh().order().share_a_vertex(pair[0], pair[1])
+                        || self.body.leaves_out(pair))
+                {
                     continue;
                 }
                 statistics.candidate_pairs += 1;

@@ -7,33 +7,34 @@
 use crate::held::held;
 use crate::ids::{TreeTriangle, TreeVertex};
 use crate::labels::Labels;
-use crate::mesh::{EMPTY, Elements, Order};
+use crate::mesh::{EMPTY, Order};
 
 /// Most labels at a vertex that are listed as pairs of neighbours. A vertex with more of them is a
 /// hub, and each lists the hub.
 const MOST_AT_A_VERTEX: usize = 32;
 
-/// Pairs of a body that its labels leave out, in tree order.
+/// Pairs of a body that its labels leave out, by the caller's numbers.
 ///
 /// Labels are known by their rank among all; [`Labels::NONE`] stays as it is.
 #[derive(Clone, Debug)]
 pub(crate) struct LabelPairs {
-    /// Labels of triangles by the caller's numbers.
-    callers: Vec<u32>,
     triangles: Vec<u32>,
+    /// Labels at each vertex.
+    vertices: Rows,
+    /// Edges between vertices of several labels, and their labels: lower end, higher end, label.
+    /// Sorted.
+    border: Vec<[u32; 3]>,
     /// Neighbours of each label, sorted: ranks, then hubs, numbered behind all ranks.
     neighbours: Rows,
     /// Count of labels.
     labels: u32,
-    /// Labels of vertices and of edges, once elements are asked about.
-    elements: Option<[Rows; 2]>,
 }
 
 impl LabelPairs {
-    /// Labels brought into tree order, for a mesh with these triangles, by the caller's numbers.
+    /// Pairs that labels leave out of a mesh with these triangles. `vertices` is their count.
     ///
-    /// O(m log m), and O(k log k) for given neighbours.
-    pub(crate) fn new(labels: Labels, triangles: &[[u32; 3]], order: &Order) -> Self {
+    /// O(n + m log m), and O(k log k) for given neighbours.
+    pub(crate) fn new(labels: Labels, triangles: &[[u32; 3]], vertices: usize) -> Self {
         let mut names = labels.of_triangles.to_vec();
         names.sort_unstable();
         names.dedup();
@@ -41,7 +42,28 @@ impl LabelPairs {
             Ok(rank) if label != Labels::NONE => rank as u32,
             _ => Labels::NONE,
         };
-        let callers: Vec<u32> = labels.of_triangles.iter().map(|&it| rank(it)).collect();
+        let of_triangles: Vec<u32> = labels.of_triangles.iter().map(|&it| rank(it)).collect();
+        let live = triangles.iter().zip(&of_triangles);
+        let live = live.filter(|(corners, _)| **corners != EMPTY);
+        let mut at: Vec<[u32; 2]> = live
+            .clone()
+            .flat_map(|(corners, &label)| corners.map(|vertex| [vertex, label]))
+            .collect();
+        at.sort_unstable();
+        at.dedup();
+        let at_vertices = Rows::new(&at, vertices);
+        let has_several = |vertex: u32| at_vertices.get(vertex as usize).len() > 1;
+        let mut border: Vec<[u32; 3]> = Vec::new();
+        for (&[a, b, c], &label) in live {
+            for [i, j] in [[a, b], [b, c], [c, a]] {
+                if has_several(i) && has_several(j) {
+                    border.push([i.min(j), i.max(j), label]);
+                }
+            }
+        }
+        border.sort_unstable();
+        border.dedup();
+
         let mut hubs = names.len() as u32;
         let mut pairs = Vec::new();
         if let Some(given) = labels.neighbours {
@@ -49,7 +71,6 @@ impl LabelPairs {
             let known = ranks.filter(|pair| !pair.contains(&Labels::NONE));
             pairs.extend(known.flat_map(|[a, b]| [[a, b], [b, a]]));
         } else {
-            let mut at = at_vertices(triangles, &callers);
             at.retain(|&[_, label]| label != Labels::NONE);
             for star in at.chunk_by(|a, b| a[0] == b[0]) {
                 if star.len() > MOST_AT_A_VERTEX {
@@ -65,77 +86,61 @@ impl LabelPairs {
         }
         pairs.sort_unstable();
         pairs.dedup();
-        // The number of a triangle that was removed may be none any more.
-        let of_number = |&it: &u32| callers.get(it as usize).copied().unwrap_or(Labels::NONE);
         Self {
-            triangles: order.triangle_order().iter().map(of_number).collect(),
-            callers,
+            triangles: of_triangles,
+            vertices: at_vertices,
+            border,
             neighbours: Rows::new(&pairs, names.len()),
             labels: names.len() as u32,
-            elements: None,
         }
     }
 
-    /// Finds the labels of vertices and edges, unless they are known. O(m log m).
-    pub(crate) fn know_elements(
-        &mut self,
-        triangles: &[[u32; 3]],
-        order: &Order,
-        elements: &Elements,
-    ) {
-        if self.elements.is_some() {
-            return;
-        }
-        let vertices = order.vertex_order();
-        let at = Rows::new(&at_vertices(triangles, &self.callers), vertices.len());
-        let vertices = Rows::of(vertices.iter().map(|&it| at.get(it as usize)));
-
-        let of_triangle = |(&[a, b, c], &label): (&[u32; 3], &u32)| {
-            [[a, b], [b, c], [c, a]].map(|[i, j]| (i.min(j), i.max(j), label))
-        };
-        let live = triangles.iter().zip(&self.callers);
-        let live = live.filter(|(corners, _)| **corners != EMPTY);
-        let mut sides: Vec<(u32, u32, u32)> = live.flat_map(of_triangle).collect();
-        sides.sort_unstable();
-        sides.dedup();
-        let labels: Vec<u32> = sides.iter().map(|side| side.2).collect();
-        let of_edge = |&number: &u32| {
-            let [i, j] = elements.callers()[number as usize];
-            let start = sides.partition_point(|side| (side.0, side.1) < (i, j));
-            let end = sides.partition_point(|side| (side.0, side.1) <= (i, j));
-            &labels[start..end]
-        };
-        let edges = Rows::of(elements.caller_edges().iter().map(of_edge));
-        self.elements = Some([vertices, edges]);
-    }
-
-    /// Whether two triangles are left out.
+    /// Whether two triangles are left out. The order is the body's.
     #[inline]
-    pub(crate) fn leave_out(&self, pair: [TreeTriangle; 2]) -> bool {
-        let [a, b] = pair.map(|triangle| self.triangles[triangle.index()]);
+    pub(crate) fn leave_out(&self, order: &Order, pair: [TreeTriangle; 2]) -> bool {
+        let [a, b] = pair.map(|triangle| self.of_triangle(order, triangle));
         self.are_together(a, b)
     }
 
     /// Whether a vertex and a triangle are left out.
     pub(in crate::queries) fn leave_out_vertex(
         &self,
+        order: &Order,
         vertex: TreeVertex,
         triangle: TreeTriangle,
     ) -> bool {
-        let label = self.triangles[triangle.index()];
-        let of_vertex = self.elements.iter().map(|[vertices, _]| vertices);
-        let mut of_vertex = of_vertex.flat_map(|all| all.get(vertex.index()));
-        of_vertex.all(|&other| self.are_together(other, label))
+        let label = self.of_triangle(order, triangle);
+        let of_vertex = self.vertices.get(order.caller_vertex(vertex).index());
+        of_vertex
+            .iter()
+            .all(|&other| self.are_together(other, label))
     }
 
-    /// Whether two edges are left out.
-    pub(in crate::queries) fn leave_out_edges(&self, pair: [u32; 2]) -> bool {
-        let Some([_, edges]) = &self.elements else {
-            return false;
+    /// Whether two edges are left out, by their ends, the lower first.
+    pub(in crate::queries) fn leave_out_edges(&self, [a, b]: [[u32; 2]; 2]) -> bool {
+        self.of_edge(a)
+            .all(|a| self.of_edge(b).all(|b| self.are_together(a, b)))
+    }
+
+    fn of_triangle(&self, order: &Order, triangle: TreeTriangle) -> u32 {
+        self.triangles[order.caller_triangle(triangle).index()]
+    }
+
+    /// Labels of an edge. All triangles of an edge are at each end: one label there is the edge's.
+    fn of_edge(&self, ends: [u32; 2]) -> impl Iterator<Item = u32> {
+        let at = ends.map(|end| self.vertices.get(end as usize));
+        let one = at.into_iter().find_map(|labels| match labels {
+            &[label] => Some(label),
+            _ => None,
+        });
+        let of_border = if one.is_some() {
+            &[]
+        } else {
+            let start = self.border.partition_point(|side| side[..2] < ends[..]);
+            let end = self.border.partition_point(|side| side[..2] <= ends[..]);
+            &self.border[start..end]
         };
-        let [a, b] = pair.map(|edge| edges.get(edge as usize));
-        a.iter()
-            .all(|&a| b.iter().all(|&b| self.are_together(a, b)))
+        one.into_iter().chain(of_border.iter().map(|side| side[2]))
     }
 
     /// Whether two labels are equal or neighbours.
@@ -155,18 +160,6 @@ impl LabelPairs {
     }
 }
 
-/// Pairs (vertex, label) of all triangles that are there, each once, sorted.
-fn at_vertices(triangles: &[[u32; 3]], labels: &[u32]) -> Vec<[u32; 2]> {
-    let live = triangles.iter().zip(labels);
-    let live = live.filter(|(corners, _)| **corners != EMPTY);
-    let mut pairs: Vec<[u32; 2]> = live
-        .flat_map(|(corners, &label)| corners.map(|vertex| [vertex, label]))
-        .collect();
-    pairs.sort_unstable();
-    pairs.dedup();
-    pairs
-}
-
 /// Rows of numbers, one after the other.
 #[derive(Clone, Debug)]
 struct Rows {
@@ -178,22 +171,14 @@ struct Rows {
 impl Rows {
     /// Rows of sorted pairs (row, number).
     fn new(pairs: &[[u32; 2]], rows: usize) -> Self {
-        let start = |row: usize| pairs.partition_point(|pair| (pair[0] as usize) < row);
-        Self {
-            starts: (0..=rows).map(start).collect(),
-            numbers: pairs.iter().map(|pair| pair[1]).collect(),
+        let mut starts = vec![0; rows + 1];
+        for &[row, _] in pairs {
+            starts[row as usize + 1] += 1;
         }
-    }
-
-    /// Rows as they come.
-    fn of<'r>(rows: impl ExactSizeIterator<Item = &'r [u32]>) -> Self {
-        let mut starts = Vec::with_capacity(rows.len() + 1);
-        let mut numbers = Vec::new();
-        starts.push(0);
-        for row in rows {
-            numbers.extend_from_slice(row);
-            starts.push(numbers.len());
+        for row in 0..rows {
+            starts[row + 1] += starts[row];
         }
+        let numbers = pairs.iter().map(|pair| pair[1]).collect();
         Self { starts, numbers }
     }
 
@@ -204,5 +189,4 @@ impl Rows {
 }
 
 held!(Rows: starts[], numbers[]);
-held!(LabelPairs: callers[], triangles[], neighbours;
-    |pairs| crate::held::within(pairs.elements.iter().flatten()));
+held!(LabelPairs: triangles[], vertices, border[], neighbours);

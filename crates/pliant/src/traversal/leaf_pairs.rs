@@ -178,7 +178,8 @@ impl LeafTests {
             }
         }
         if let Some(labels) = leaf_test.labels {
-            candidates.retain(|&pair| !labels.leave_out(pair));
+            let order = leaf_test.ids.orders[0];
+            candidates.retain(|&pair| !labels.leave_out(order, pair));
         }
         work.test(leaf_test, Batch::Triangles(candidates));
     }

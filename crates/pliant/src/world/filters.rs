@@ -224,7 +224,7 @@ impl<S: Scalar> World<S> {
     /// # Ok::<(), pliant::Error>(())
     /// ```
     ///
-    /// Cost: O(m). The next question costs O(m log m), as it does after each edit.
+    /// Cost: O(n + m log m). As much again for the next question after edits.
     ///
     /// # Errors
     ///

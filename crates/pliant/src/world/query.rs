@@ -64,11 +64,12 @@ impl<'w, H: Copy> Query<'w, H> {
     /// Ends the query early, with an error, when `question` says so.
     ///
     /// Every thread that works on the query asks, at least every 10 milliseconds and mostly much
-    /// more often. So a question should cost little: a flag that is read, a clock. Three things may
+    /// more often. So a question should cost little: a flag that is read, a clock. Four things may
     /// take longer between two looks:
     ///
     /// - memory for a list of millions is asked of the system in one piece;
     /// - a list of hundreds of thousands of pairs of bodies is sorted in one piece;
+    /// - labels of a mesh that was edited are sorted in one piece;
     /// - one pair of moving elements may take some ten milliseconds, where its coordinates are a
     ///   thousand powers of two apart.
     ///

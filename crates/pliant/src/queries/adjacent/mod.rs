@@ -440,7 +440,7 @@ impl Job {
             return;
         }
         if let Some(labels) = body.labels
-            && labels.leave_out([a, b].map(TreeTriangle))
+            && labels.leave_out(body.order, [a, b].map(TreeTriangle))
         {
             return;
         }

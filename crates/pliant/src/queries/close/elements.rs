@@ -7,8 +7,8 @@ use crate::ids::TreeVertex;
 use crate::kernels::closest::{FourCorners, decide_eight, of_elements, rounded_outward};
 use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
 use crate::queries::{
-    Batch, CallerIds, EdgeEdgeCandidates, FoundBy, Kind, LabelPairs, LeafTest, Margin, Needs,
-    Thicknesses, VertexTriangleCandidates,
+    Batch, CallerIds, EdgeEdgeCandidates, FoundBy, Kind, LabelPairs, LeafTest, Margin,
+    NearElements, Needs, Thicknesses, VertexTriangleCandidates,
 };
 use pliant_exact::Length;
 use pliant_exact::distance::are_within_distance;
@@ -47,7 +47,7 @@ pub(crate) trait ElementCandidates:
     -> Option<[(usize, TreeVertex); 4]>;
 
     /// Whether labels leave out a candidate.
-    fn are_left_out(labels: &LabelPairs, hit: [u32; 2]) -> bool;
+    fn are_left_out(leaves: &LeafTest<Self::Scalar>, labels: &LabelPairs, hit: [u32; 2]) -> bool;
 
     /// Positions of the four corners of a candidate in the present shapes.
     #[inline(always)]
@@ -151,7 +151,7 @@ where
         let exact = &mut found.statistics.exact_decisions;
         let new = found.hits.tail_mut(before);
         let new = match leaves.labels {
-            Some(labels) => stay(new, |&hit| !K::are_left_out(labels, hit)),
+            Some(labels) => stay(new, |&hit| !K::are_left_out(leaves, labels, hit)),
             None => new,
         };
         let positions = leaves.shapes.map(|shape| shape.positions);
@@ -254,9 +254,9 @@ impl<S: Coordinate> ElementCandidates for VertexTriangleCandidates<S> {
         Some([(side, vertex), (other, a), (other, b), (other, c)])
     }
 
-    fn are_left_out(labels: &LabelPairs, hit: [u32; 2]) -> bool {
+    fn are_left_out(leaves: &LeafTest<S>, labels: &LabelPairs, hit: [u32; 2]) -> bool {
         let (_, vertex, triangle) = Self::sides_of(hit);
-        labels.leave_out_vertex(vertex, triangle)
+        labels.leave_out_vertex(leaves.ids.orders[0], vertex, triangle)
     }
 }
 
@@ -267,8 +267,15 @@ impl<S: Coordinate> ElementCandidates for EdgeEdgeCandidates<S> {
         Some([(0, a0), (0, a1), (1, b0), (1, b1)])
     }
 
-    fn are_left_out(labels: &LabelPairs, hit: [u32; 2]) -> bool {
-        labels.leave_out_edges(hit)
+    fn are_left_out(leaves: &LeafTest<S>, labels: &LabelPairs, [a, b]: [u32; 2]) -> bool {
+        let [Some(of_a), Some(of_b)] = leaves.elements else {
+            return false;
+        };
+        let ends = |of: NearElements, edge: u32| {
+            let number = of.edges.caller_edges()[edge as usize];
+            of.edges.callers()[number as usize]
+        };
+        labels.leave_out_edges([ends(of_a, a), ends(of_b, b)])
     }
 
     fn callers_corners<'q>(leaves: &LeafTest<'q, S>, hit: [u32; 2]) -> Option<FourCorners<'q, S>> {

@@ -125,11 +125,10 @@ impl<S: Coordinate> State<S> {
         let Some(last) = self.witnesses.get(bodies) else {
             return Ok(None);
         };
-        let both = [self.body(bodies[0])?, self.body(bodies[1])?];
-        // Labels are known only where shapes are brought into tree order.
-        if bodies[0] == bodies[1] && both[0].labels().is_some() {
-            return Ok(None);
+        if bodies[0] == bodies[1] {
+            self.common.bodies.get_mut(bodies[0])?.know_labels();
         }
+        let both = [self.body(bodies[0])?, self.body(bodies[1])?];
         let interrupt = Interrupt::new(request.question);
         let mut statistics = self.common.done_early;
         let found = near(both, last, &interrupt, &mut statistics);

@@ -6,15 +6,27 @@
 //! |---|---|
 //! | `status` | statuses, errors, and what becomes of a panic |
 //! | `points` | coordinates of the caller, wherever they lie |
+//! | `faces` | triangles of the caller, of indices of any size |
 //! | `pairs` | functions on single pairs, without a world |
+//! | `world` | worlds: bodies, shapes, motions, filters |
+//! | `questions` | questions of a world: all hits, the first, a visit |
+//! | `hits` | hits in columns |
 
+mod faces;
+mod hits;
 mod pairs;
 mod points;
+mod questions;
 mod status;
+mod world;
 
+pub use faces::PliantFaces;
+pub use hits::PliantHits;
 pub use pairs::*;
 pub use points::{PliantPoints, PliantScalar};
+pub use questions::*;
 pub use status::{PliantError, PliantStatus};
+pub use world::*;
 
 /// `pliant_version`.
 #[unsafe(no_mangle)]

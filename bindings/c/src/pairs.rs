@@ -13,7 +13,7 @@ fn behind(first: usize, mut error: Error) -> Refused {
 }
 
 /// Values of `pliant_features`.
-fn number_of(features: ClosestFeatures) -> u8 {
+pub(crate) fn number_of(features: ClosestFeatures) -> u8 {
     match features {
         ClosestFeatures::VertexVertex => 0,
         ClosestFeatures::VertexEdge => 1,
@@ -23,7 +23,7 @@ fn number_of(features: ClosestFeatures) -> u8 {
 }
 
 /// Values of `pliant_contact`.
-fn number_of_contact(kind: Option<ContactKind>) -> u8 {
+pub(crate) fn number_of_contact(kind: Option<ContactKind>) -> u8 {
     match kind {
         None => 0,
         Some(ContactKind::Touching) => 1,

@@ -4,8 +4,9 @@
 //! `[[[f64; 3]; 4]]` has them, they are read where they lie. Else some thousands are copied at a
 //! time.
 
-use crate::status::{BAD_SCALAR, DIFFERENT_COUNTS, Refused};
+use crate::status::{BAD_SCALAR, DIFFERENT_COUNTS, Refused, WOULD_ROUND};
 use pliant::Scalar;
+use std::borrow::Cow;
 use std::ffi::c_void;
 
 /// `pliant_scalar`: the type of coordinates.
@@ -52,6 +53,77 @@ impl PliantPoints {
             // SAFETY: the caller of the library says that coordinates lie there.
             unsafe { at.read_unaligned() }
         })
+    }
+}
+
+/// A number type of coordinates.
+pub(crate) trait Number: Scalar {
+    const SCALAR: PliantScalar;
+    /// A number of single precision, widened if need be.
+    fn widened(number: f32) -> Self;
+}
+
+impl Number for f32 {
+    const SCALAR: PliantScalar = F32;
+    fn widened(number: f32) -> Self {
+        number
+    }
+}
+
+impl Number for f64 {
+    const SCALAR: PliantScalar = F64;
+    fn widened(number: f32) -> Self {
+        number.into()
+    }
+}
+
+/// Positions of a body's vertices as a world of this precision takes them: where they lie, if they
+/// lie so, else copied. Single precision is widened; double would be rounded, and is refused.
+///
+/// # Safety
+///
+/// `points` may be read as it says.
+pub(crate) unsafe fn positions<'c, S: Number>(
+    points: &PliantPoints,
+) -> Result<Cow<'c, [[S; 3]]>, Refused> {
+    if points.data.is_null() && points.count > 0 {
+        return Err(Refused::null("positions.data"));
+    }
+    match points.scalar {
+        F32 | F64 if points.scalar == S::SCALAR => {
+            let alone = std::slice::from_ref(points).first_chunk();
+            let in_place = alone.and_then(|points: &[PliantPoints; 1]| {
+                let (count, scalar) = (points[0].count, points[0].scalar);
+                let corners = Corners {
+                    points,
+                    count,
+                    scalar,
+                };
+                corners.in_place::<S>().map(<[_]>::as_flattened)
+            });
+            if let Some(in_place) = in_place {
+                // SAFETY: the caller's array outlives the call, and this borrow ends with it.
+                let in_place =
+                    unsafe { std::slice::from_raw_parts(in_place.as_ptr(), points.count) };
+                return Ok(Cow::Borrowed(in_place));
+            }
+            // SAFETY: the points are there, and of this type.
+            let get = |point| unsafe { points.get::<S>(point) };
+            Ok(Cow::Owned((0..points.count).map(get).collect()))
+        }
+        F32 => {
+            // SAFETY: the points are there, and of single precision.
+            let get = |point| unsafe { points.get::<f32>(point) }.map(S::widened);
+            Ok(Cow::Owned((0..points.count).map(get).collect()))
+        }
+        F64 => Err(Refused::new(
+            WOULD_ROUND,
+            "positions of double precision would be rounded; make the world of PLIANT_F64",
+        )),
+        other => Err(Refused::new(
+            BAD_SCALAR,
+            format_args!("positions.scalar is {other}; give PLIANT_F32 or PLIANT_F64"),
+        )),
     }
 }
 
@@ -125,7 +197,7 @@ impl<'c, const C: usize> Corners<'c, C> {
         let lie_so = (0..C).all(|corner| {
             let of = &self.points[corner];
             let expected = all.cast::<u8>().wrapping_add(3 * size * corner);
-            of.data.cast() == expected && [of.row, of.column] == [row, size as isize]
+            of.data.cast() == expected && of.strides(size) == [row, size as isize]
         });
         let fits = self.count <= isize::MAX as usize / (3 * C * size);
         if !lie_so || !fits || !all.is_aligned() || all.is_null() {

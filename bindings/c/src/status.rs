@@ -23,9 +23,27 @@ statuses! {
     BAD_SCALAR = 2;
     PANIC = 3;
     OTHER = 4;
+    BAD_INDEX = 5;
+    BAD_OPTION = 6;
+    WOULD_ROUND = 7;
+    BUSY = 8;
     DIFFERENT_COUNTS = 10;
     BAD_CORNER = 11;
     BAD_WIDTH = 12;
+    NO_SUCH_BODY = 20;
+    SAME_BODY = 21;
+    NO_TRIANGLES = 22;
+    TOO_LARGE = 23;
+    TOO_MANY_BODIES = 24;
+    VERTEX_OUT_OF_RANGE = 25;
+    WRONG_LENGTH = 26;
+    BAD_POSITION = 27;
+    NEEDS_SUBNORMALS = 28;
+    TOO_MANY_HITS = 30;
+    INTERRUPTED = 31;
+    BAD_MARGIN = 32;
+    BAD_DISTANCE = 33;
+    BAD_TIME = 34;
 }
 
 /// Bytes of a message, the 0 at its end included.
@@ -37,20 +55,28 @@ const MESSAGE: usize = 256;
 pub struct PliantError {
     /// Status that the call returned.
     pub status: PliantStatus,
-    /// Corner of the pair; `u32::MAX` if none is refused.
-    pub corner: u32,
-    /// Pair of elements; `u64::MAX` if none is refused.
+    /// Body that the call was about; this and the next are `u32::MAX` where they do not apply.
+    pub body: u32,
+    /// Triangle of it.
+    pub triangle: u32,
+    /// Vertex of it, or the corner of a pair.
+    pub vertex: u32,
+    /// Number of the pair; this and the next are `u64::MAX` where they do not apply.
     pub pair: u64,
-    /// The width that is refused, or NaN.
+    /// Count that is refused.
+    pub count: u64,
+    /// Count that was expected, or is the most.
+    pub limit: u64,
+    /// Number that is refused, or NaN.
     pub number: f64,
-    /// The position that is refused, or NaN.
+    /// Position that is refused, or NaN.
     pub position: [f64; 3],
     /// One line of UTF-8 that ends with 0.
     pub message: [u8; MESSAGE],
 }
 
 /// A refused call.
-pub(crate) struct Refused(Box<PliantError>);
+pub(crate) struct Refused(pub(crate) Box<PliantError>);
 
 impl Refused {
     pub(crate) fn new(status: PliantStatus, message: impl Display) -> Self {
@@ -62,8 +88,12 @@ impl Refused {
         bytes[..text.len()].copy_from_slice(text.as_bytes());
         Self(Box::new(PliantError {
             status,
-            corner: u32::MAX,
+            body: u32::MAX,
+            triangle: u32::MAX,
+            vertex: u32::MAX,
             pair: u64::MAX,
+            count: u64::MAX,
+            limit: u64::MAX,
             number: f64::NAN,
             position: [f64::NAN; 3],
             message: bytes,
@@ -78,27 +108,59 @@ impl Refused {
 
 impl From<Error> for Refused {
     fn from(error: Error) -> Self {
-        let status = match error.kind {
-            ErrorKind::DifferentCounts { .. } => DIFFERENT_COUNTS,
-            ErrorKind::BadCorner { .. } => BAD_CORNER,
-            ErrorKind::BadWidth { .. } => BAD_WIDTH,
-            _ => OTHER,
+        let message = error.to_string();
+        let with = |status, add: &dyn Fn(&mut PliantError)| {
+            let mut refused = Self::new(status, &message);
+            refused.0.body = error.body.map_or(u32::MAX, |body| body.0);
+            add(&mut refused.0);
+            refused
         };
-        let mut refused = Self::new(status, &error);
+        let plain = |status| with(status, &|_| {});
         match error.kind {
+            ErrorKind::DifferentCounts { start, end } => with(DIFFERENT_COUNTS, &|it| {
+                (it.count, it.limit) = (end as u64, start as u64);
+            }),
             ErrorKind::BadCorner {
                 pair,
                 corner,
                 position,
-            } => {
-                refused.0.pair = pair as u64;
-                refused.0.corner = corner as u32;
-                refused.0.position = position;
+            } => with(BAD_CORNER, &|it| {
+                (it.pair, it.vertex, it.position) = (pair as u64, corner as u32, position);
+            }),
+            ErrorKind::BadWidth { width } => with(BAD_WIDTH, &|it| it.number = width),
+            ErrorKind::NoSuchBody => plain(NO_SUCH_BODY),
+            ErrorKind::SameBody => plain(SAME_BODY),
+            ErrorKind::NoTriangles => plain(NO_TRIANGLES),
+            ErrorKind::TooLarge { count, limit, .. } => with(TOO_LARGE, &|it| {
+                (it.count, it.limit) = (count as u64, limit as u64);
+            }),
+            ErrorKind::TooManyBodies => plain(TOO_MANY_BODIES),
+            ErrorKind::VertexOutOfRange {
+                triangle,
+                vertex,
+                vertices,
+            } => with(VERTEX_OUT_OF_RANGE, &|it| {
+                (it.triangle, it.vertex) = (triangle as u32, vertex);
+                it.limit = vertices as u64;
+            }),
+            ErrorKind::WrongLength {
+                expected, found, ..
+            } => with(WRONG_LENGTH, &|it| {
+                (it.count, it.limit) = (found as u64, expected as u64);
+            }),
+            ErrorKind::BadPosition { vertex, position } => with(BAD_POSITION, &|it| {
+                (it.vertex, it.position) = (vertex as u32, position);
+            }),
+            ErrorKind::NeedsSubnormals { vertex } => {
+                with(NEEDS_SUBNORMALS, &|it| it.vertex = vertex as u32)
             }
-            ErrorKind::BadWidth { width } => refused.0.number = width,
-            _ => {}
+            ErrorKind::TooManyHits { limit } => with(TOO_MANY_HITS, &|it| it.limit = limit as u64),
+            ErrorKind::Interrupted => plain(INTERRUPTED),
+            ErrorKind::BadMargin { radius } => with(BAD_MARGIN, &|it| it.number = radius),
+            ErrorKind::BadDistance { distance } => with(BAD_DISTANCE, &|it| it.number = distance),
+            ErrorKind::BadTime { time } => with(BAD_TIME, &|it| it.number = time),
+            _ => plain(OTHER),
         }
-        refused
     }
 }
 

@@ -224,7 +224,7 @@ static void wrong_arguments(void) {
         for (int layout = 0; layout < 2; layout++) {
             refused(pliant_vertex_triangle_impacts(to, from, 0, NULL, NULL, NULL, &error), &error,
                     PLIANT_BAD_CORNER, "corner 2 of pair");
-            CHECK(error.pair == (uint64_t)pair && error.corner == 2);
+            CHECK(error.pair == (uint64_t)pair && error.vertex == 2);
             CHECK(isnan(bad[i]) ? isnan(error.position[1]) : error.position[1] == bad[i]);
             refused(pliant_edge_edge_distances(from, NULL, NULL, NULL, NULL, &error), &error,
                     PLIANT_BAD_CORNER, "corner 2 of pair");

@@ -151,17 +151,20 @@ fn run(compiler: &str, flags: &[&str], file: &Path, by: &[&str]) -> String {
     String::from_utf8(ran.stdout).unwrap()
 }
 
+const PROGRAMS: [&str; 2] = ["tests/pairs.c", "tests/world.c"];
+
 #[test]
 fn programs_in_c_and_in_cpp_do_what_they_should() {
-    let file = root().join("tests/pairs.c");
-    for compiler in ["cc", "clang"] {
-        if is_there(compiler) {
-            run(compiler, &["-std=c11", "-g"], &file, &[]);
+    for file in PROGRAMS.map(|file| root().join(file)) {
+        for compiler in ["cc", "clang"] {
+            if is_there(compiler) {
+                run(compiler, &["-std=c11", "-g"], &file, &[]);
+            }
         }
-    }
-    for compiler in ["c++", "clang++"] {
-        if is_there(compiler) {
-            run(compiler, &["-std=c++17", "-g", "-x", "c++"], &file, &[]);
+        for compiler in ["c++", "clang++"] {
+            if is_there(compiler) {
+                run(compiler, &["-std=c++17", "-g", "-x", "c++"], &file, &[]);
+            }
         }
     }
 }
@@ -169,21 +172,22 @@ fn programs_in_c_and_in_cpp_do_what_they_should() {
 #[test]
 #[ignore = "for releases: needs the sanitizers and valgrind"]
 fn programs_run_clean_under_sanitizers_and_valgrind() {
-    let file = root().join("tests/pairs.c");
-    let sanitized = [
-        "-std=c11",
-        "-g",
-        "-fsanitize=address,undefined",
-        "-fno-sanitize-recover",
-    ];
-    run("cc", &sanitized, &file, &[]);
-    let valgrind = [
-        "valgrind",
-        "--quiet",
-        "--error-exitcode=9",
-        "--leak-check=full",
-    ];
-    run("cc", &["-std=c11", "-g"], &file, &valgrind);
+    for file in PROGRAMS.map(|file| root().join(file)) {
+        let sanitized = [
+            "-std=c11",
+            "-g",
+            "-fsanitize=address,undefined",
+            "-fno-sanitize-recover",
+        ];
+        run("cc", &sanitized, &file, &[]);
+        let valgrind = [
+            "valgrind",
+            "--quiet",
+            "--error-exitcode=9",
+            "--leak-check=full",
+        ];
+        run("cc", &["-std=c11", "-g"], &file, &valgrind);
+    }
 }
 
 #[test]

@@ -3,12 +3,14 @@
 //! Rows as Rust has them should cost at most 1.05, and columns as Eigen has them 1.3. Figures are
 //! medians of rounds in turn.
 
+use pliant::{Selection, World};
 use pliant_c::{
-    PliantPoints, pliant_edge_edge_distances, pliant_edge_edge_impacts, pliant_triangle_contacts,
-    pliant_vertex_triangle_distances, pliant_vertex_triangle_impacts,
+    PliantFaces, PliantPoints, pliant_edge_edge_distances, pliant_edge_edge_impacts,
+    pliant_triangle_contacts, pliant_vertex_triangle_distances, pliant_vertex_triangle_impacts,
+    pliant_world_add, pliant_world_free, pliant_world_intersections, pliant_world_new,
 };
 use std::hint::black_box;
-use std::ptr::null_mut;
+use std::ptr::{null, null_mut};
 use std::time::Instant;
 
 const PAIRS: usize = 100_000;
@@ -60,6 +62,68 @@ fn points<const C: usize>(
         }
     }
     points
+}
+
+/// Prints nanoseconds of a question that finds nothing: of Rust, and of C.
+fn compare_calls() {
+    const CALLS: usize = 20_000;
+    let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let mut rust = World::<f64>::new();
+    let mut c = null_mut();
+    let faces = [[0_u32, 1, 2]];
+    // SAFETY: all arrays are there.
+    unsafe {
+        assert_eq!(pliant_world_new(null(), &raw mut c, null_mut()), 0);
+        for x in [0.0, 5.0] {
+            let corners = corners.map(|[_, y, z]| [x, y, z]);
+            rust.add(&faces, &corners).expect("a body");
+            let faces = PliantFaces {
+                data: faces.as_ptr().cast(),
+                count: 1,
+                row: 0,
+                column: 0,
+                bytes: 4,
+                is_signed: 0,
+            };
+            let points = PliantPoints {
+                data: corners.as_ptr().cast(),
+                count: 3,
+                row: 0,
+                column: 0,
+                scalar: 1,
+            };
+            assert_eq!(
+                pliant_world_add(c, faces, points, null_mut(), null_mut()),
+                0
+            );
+        }
+    }
+    let mut times = [Vec::new(), Vec::new()];
+    for _ in 0..ROUNDS {
+        let start = Instant::now();
+        for _ in 0..CALLS {
+            let found = rust.intersections(Selection::Everything).all();
+            assert!(black_box(found.expect("an answer")).is_empty());
+        }
+        times[0].push(start.elapsed().as_secs_f64());
+        let start = Instant::now();
+        for _ in 0..CALLS {
+            // SAFETY: the world is there, and nothing is to be written.
+            let status = unsafe { pliant_world_intersections(c, null(), null_mut(), null_mut()) };
+            assert_eq!(black_box(status), 0);
+        }
+        times[1].push(start.elapsed().as_secs_f64());
+    }
+    let [rust, of_c] = times.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        times[ROUNDS / 2] * 1e9 / CALLS as f64
+    });
+    println!(
+        "\na question that finds nothing: {rust:.0} ns in Rust, {:.0} ns more in C",
+        of_c - rust
+    );
+    // SAFETY: it was made, and no call is inside.
+    unsafe { pliant_world_free(c) };
 }
 
 /// Prints milliseconds of Rust's call, and the ratios of both calls of C.
@@ -172,4 +236,5 @@ fn main() {
             &mut || assert_eq!(c(&of_columns), 0),
         ],
     );
+    compare_calls();
 }

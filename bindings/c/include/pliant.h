@@ -256,6 +256,21 @@ pliant_status pliant_world_advance_motion(pliant_world *world, double t, pliant_
 pliant_status pliant_world_set_rest_positions(pliant_world *world, uint32_t body,
                                               const pliant_points *positions, pliant_error *error);
 
+/* Gives a body another mesh at these positions, and keeps its number. Statuses as of
+   pliant_world_add, and PLIANT_NO_SUCH_BODY. */
+pliant_status pliant_world_set_mesh(pliant_world *world, uint32_t body, pliant_faces faces,
+                                    pliant_points positions, pliant_error *error);
+
+/* Numbers the edges of a body as in this list, two vertices each: every edge of the mesh once. For
+   callers with numbers of their own. PLIANT_NO_SUCH_BODY, PLIANT_OTHER. */
+pliant_status pliant_world_set_edges(pliant_world *world, uint32_t body, const uint32_t *edges,
+                                     size_t count, pliant_error *error);
+
+/* The edges of a body, two vertices each, in the order of their numbers: a view, valid until this
+   is called with the world again, or it is freed. PLIANT_NO_SUCH_BODY. */
+pliant_status pliant_world_edges(const pliant_world *world, uint32_t body, const uint32_t **edges,
+                                 size_t *count, pliant_error *error);
+
 /* Counts of a body's triangles and vertices; either may be NULL. PLIANT_NO_SUCH_BODY. */
 pliant_status pliant_world_counts(const pliant_world *world, uint32_t body, size_t *triangles,
                                   size_t *vertices, pliant_error *error);
@@ -279,6 +294,14 @@ pliant_status pliant_world_set_environment(pliant_world *world, uint32_t body,
    PLIANT_NO_SUCH_BODY. */
 pliant_status pliant_world_ignore(pliant_world *world, uint32_t a, uint32_t b,
                                   pliant_error *error);
+
+/* Labels the triangles of a body, one for each: pairs of the body of equal labels, or of
+   neighbours, are left out. `neighbours` has two labels a row; NULL: labels with a vertex in
+   common. UINT32_MAX is left out of nothing. NULL for `labels` takes them away. For intersections,
+   contacts and close pairs. PLIANT_NO_SUCH_BODY, PLIANT_WRONG_LENGTH. */
+pliant_status pliant_world_set_labels(pliant_world *world, uint32_t body, const uint32_t *labels,
+                                      size_t count, const uint32_t *neighbours,
+                                      size_t neighbour_count, pliant_error *error);
 
 /* Gives every vertex of a body a group: elements whose vertices are all of one group do not meet,
    unless that is 0. For candidates, close pairs and impacts. PLIANT_NO_SUCH_BODY,

@@ -7,7 +7,7 @@ use crate::status::{
     BAD_OPTION, BAD_SCALAR, BUSY, NULL, PANIC, PliantError, PliantStatus, Refused, WRONG_LENGTH,
     call,
 };
-use pliant::{BodyId, BroadPhase, Degree, Options, Partition, Selection, Update, World};
+use pliant::{BodyId, BroadPhase, Degree, Labels, Options, Partition, Selection, Update, World};
 use std::cell::UnsafeCell;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::slice;
@@ -65,6 +65,8 @@ pub(crate) struct Inside {
     pub(crate) lists: [Columns; QUESTIONS],
     /// Hits that a visitor is shown.
     pub(crate) shown: Columns,
+    /// The last list of edges.
+    edges: Vec<[u32; 2]>,
 }
 
 /// `pliant_world`.
@@ -89,6 +91,7 @@ impl PliantWorld {
                 world,
                 lists: Default::default(),
                 shown: Columns::default(),
+                edges: Vec::new(),
             }),
         }))
     }
@@ -653,6 +656,127 @@ pub unsafe extern "C" fn pliant_world_set_vertex_thickness(
         let all = unsafe { list(thickness, count, "thickness")? };
         let body = BodyId(body);
         with_world!(&mut inside.world, world => world.set_vertex_thickness(body, all).map_err(Refused::from))
+    };
+    // SAFETY: as the header says.
+    unsafe { inside(world, error, work) }
+}
+
+/// `pliant_world_set_labels`.
+///
+/// # Safety
+///
+/// Pointers are NULL, or as the header says.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pliant_world_set_labels(
+    world: *mut PliantWorld,
+    body: u32,
+    labels: *const u32,
+    count: usize,
+    neighbours: *const u32,
+    neighbour_count: usize,
+    error: *mut PliantError,
+) -> PliantStatus {
+    let work = |inside: &mut Inside| {
+        // SAFETY: as the header says.
+        let (of_triangles, pairs) = unsafe {
+            let pairs = neighbours.cast::<[u32; 2]>();
+            let all = (!labels.is_null()).then(|| list(labels, count, "labels"));
+            let pairs = (!neighbours.is_null()).then(|| list(pairs, neighbour_count, "neighbours"));
+            (all.transpose()?, pairs.transpose()?)
+        };
+        let labels = of_triangles.map(|of_triangles| Labels {
+            of_triangles,
+            neighbours: pairs,
+        });
+        let body = BodyId(body);
+        with_world!(&mut inside.world, world => world.set_labels(body, labels).map_err(Refused::from))
+    };
+    // SAFETY: as the header says.
+    unsafe { inside(world, error, work) }
+}
+
+/// `pliant_world_set_mesh`.
+///
+/// # Safety
+///
+/// Pointers are NULL, or as the header says.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pliant_world_set_mesh(
+    world: *mut PliantWorld,
+    body: u32,
+    faces: PliantFaces,
+    points: PliantPoints,
+    error: *mut PliantError,
+) -> PliantStatus {
+    let work = |inside: &mut Inside| {
+        // SAFETY: as the header says.
+        let faces = unsafe { faces.copied()? };
+        with_world!(&mut inside.world, world => set_mesh(world, BodyId(body), &faces, &points))
+    };
+    // SAFETY: as the header says.
+    unsafe { inside(world, error, work) }
+}
+
+/// Gives a body of a world of a precision another mesh.
+fn set_mesh<S: Number>(
+    world: &mut World<S>,
+    body: BodyId,
+    faces: &[[u32; 3]],
+    points: &PliantPoints,
+) -> Result<(), Refused> {
+    // SAFETY: as the header says of the caller's points.
+    let positions = unsafe { positions::<S>(points)? };
+    Ok(world.set_mesh(body, faces, &positions)?)
+}
+
+/// `pliant_world_set_edges`.
+///
+/// # Safety
+///
+/// Pointers are NULL, or as the header says.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pliant_world_set_edges(
+    world: *mut PliantWorld,
+    body: u32,
+    edges: *const u32,
+    count: usize,
+    error: *mut PliantError,
+) -> PliantStatus {
+    let work = |inside: &mut Inside| {
+        // SAFETY: as the header says.
+        let edges = unsafe { list(edges.cast::<[u32; 2]>(), count, "edges")? };
+        let body = BodyId(body);
+        with_world!(&mut inside.world, world => world.set_edges(body, edges).map_err(Refused::from))
+    };
+    // SAFETY: as the header says.
+    unsafe { inside(world, error, work) }
+}
+
+/// `pliant_world_edges`.
+///
+/// # Safety
+///
+/// Pointers are NULL, or as the header says.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pliant_world_edges(
+    world: *const PliantWorld,
+    body: u32,
+    edges: *mut *const u32,
+    count: *mut usize,
+    error: *mut PliantError,
+) -> PliantStatus {
+    let work = |inside: &mut Inside| {
+        let Inside {
+            world, edges: kept, ..
+        } = inside;
+        kept.clear();
+        kept.extend(with_world!(world, world => world.edges(BodyId(body))?));
+        // SAFETY: as the header says.
+        unsafe {
+            give(edges, kept.as_ptr().cast());
+            give(count, kept.len());
+        }
+        Ok(())
     };
     // SAFETY: as the header says.
     unsafe { inside(world, error, work) }

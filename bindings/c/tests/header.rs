@@ -78,6 +78,103 @@ fn the_header_has_the_functions_of_the_crate() {
     assert_eq!(declared, exported);
 }
 
+/// Methods of Rust's worlds without a function of C, so far.
+const LATER: [&str; 44] = [
+    "apply",
+    "bodies",
+    "clearance",
+    "components",
+    "distance",
+    "edit",
+    "end_positions",
+    "environment",
+    "filter",
+    "finish_motion",
+    "first_impact",
+    "free_step",
+    "fuse",
+    "ignored",
+    "interruptible",
+    "labels",
+    "live_triangles",
+    "live_vertices",
+    "loose_box",
+    "memory_usage",
+    "mesh_revision",
+    "nearest_body",
+    "options",
+    "rebuild",
+    "rest_positions",
+    "set_loose_box",
+    "set_positions_of",
+    "set_thickness",
+    "split",
+    "statistics",
+    "thickness",
+    "tree_boxes",
+    "tree_cut",
+    "tree_quality",
+    "tree_shape",
+    "triangles",
+    "unignore",
+    "validate",
+    "vertex_groups",
+    "vertex_order",
+    "weld",
+    "with_options",
+    "with_pool",
+    "write_positions",
+];
+
+/// Texts of all files below a folder.
+fn texts(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let of = |path: PathBuf| {
+        if path.is_dir() {
+            texts(&path)
+        } else {
+            vec![fs::read_to_string(path).unwrap()]
+        }
+    };
+    entries.flat_map(of).collect()
+}
+
+#[test]
+fn methods_of_worlds_have_a_function_or_are_named_as_left() {
+    let mut methods = BTreeSet::new();
+    for text in texts(&root().join("../../crates/pliant/src/world")) {
+        for block in text.split("\nimpl<S: Scalar> World<S> {\n").skip(1) {
+            let block = block.split("\n}\n").next().unwrap();
+            let mut is_hidden = false;
+            for line in block.lines() {
+                if let Some(rest) = line.strip_prefix("    pub fn ") {
+                    let end = rest
+                        .find(|c: char| !c.is_alphanumeric() && c != '_')
+                        .unwrap();
+                    if !is_hidden {
+                        methods.insert(rest[..end].to_owned());
+                    }
+                }
+                is_hidden = line.contains("doc(hidden)");
+            }
+        }
+    }
+    // One function gives both counts.
+    let counts = ["triangle_count", "vertex_count"];
+    let declared = functions(&code().replace('*', " "), " ");
+    let has = |name: &str| {
+        let name = format!("pliant_world_{name}");
+        declared.iter().any(|(declared, _)| *declared == name)
+    };
+    let missing = methods.iter().map(String::as_str);
+    let missing: Vec<_> = missing
+        .filter(|name| !has(name) && !counts.contains(name))
+        .collect();
+    assert_eq!(missing, LATER);
+}
+
 #[test]
 fn the_version_is_that_of_the_crate() {
     let header = header();
@@ -191,16 +288,16 @@ fn programs_run_clean_under_sanitizers_and_valgrind() {
 }
 
 #[test]
-fn the_program_of_the_readme_says_when() {
+fn the_program_of_the_readme_says_what_falls() {
     if !is_there("cc") {
         return;
     }
     let readme = fs::read_to_string(root().join("README.md")).unwrap();
     let program = readme.split("```c\n").nth(1).unwrap();
     let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("fall.c");
+    let file = folder.path().join("falls.c");
     fs::write(&file, program.split("```").next().unwrap()).unwrap();
     let said = run("cc", &["-std=c11"], &file, &[]);
-    let expected = "the first meets between 0.333333 and 0.333334\nthe second never meets\n";
+    let expected = "free up to 0.65; vertex 0 of body 1 meets triangle 0 of body 0 by 0.666667\n";
     assert_eq!(said, expected);
 }

@@ -129,6 +129,19 @@ static void answers_live_side_by_side(void) {
     CHECK(pliant_world_intersections(world, NULL, &later, NULL) == PLIANT_OK && later.count == 0);
     CHECK(!later.pairs);
     CHECK(pliant_world_intersections(copy, NULL, &later, NULL) == PLIANT_OK && later.count == 1);
+    /* Edges by the caller's numbers, labels, another mesh. */
+    const uint32_t own[6] = {1, 2, 0, 2, 0, 1}, *edges = NULL, labels[1] = {3}, near[2] = {3, 4};
+    size_t edge_count = 0;
+    CHECK(pliant_world_set_edges(copy, bodies[1], own, 3, NULL) == PLIANT_OK);
+    CHECK(pliant_world_edges(copy, bodies[1], &edges, &edge_count, NULL) == PLIANT_OK);
+    CHECK(edge_count == 3 && memcmp(edges, own, sizeof own) == 0);
+    CHECK(pliant_world_set_labels(copy, bodies[1], labels, 1, near, 1, NULL) == PLIANT_OK);
+    CHECK(pliant_world_set_labels(copy, bodies[1], labels, 1, NULL, 0, NULL) == PLIANT_OK);
+    CHECK(pliant_world_set_labels(copy, bodies[1], NULL, 0, NULL, 0, NULL) == PLIANT_OK);
+    const uint16_t two[6] = {0, 1, 2, 0, 1, 2};
+    CHECK(pliant_world_set_mesh(copy, bodies[1], faces_of(two, 2, 2, 0),
+                                points_of(leaf_at, 3, PLIANT_F64), NULL) == PLIANT_OK);
+    CHECK(pliant_world_intersections(copy, NULL, &later, NULL) == PLIANT_OK && later.count == 2);
     double step = NAN;
     CHECK(pliant_world_collision_free_step(copy, query.of, 0.0, &step, NULL) == PLIANT_OK);
     CHECK(step > 0.0 && step <= 1.0);
@@ -191,6 +204,7 @@ static void wrong_arguments(void) {
     pliant_error error;
     pliant_hits hits;
     pliant_options options;
+    const uint32_t small_labels[2] = {0, 1};
     const pliant_points floor_points = points_of(floor_at, 3, PLIANT_F64);
 
     refused(pliant_world_new(NULL, NULL, &error), &error, PLIANT_NULL, "world is NULL");
@@ -274,6 +288,14 @@ static void wrong_arguments(void) {
     const double thick[3] = {0, -1, 0};
     refused(pliant_world_set_vertex_thickness(world, bodies[0], thick, 3, &error), &error,
             PLIANT_OTHER, "thickness of vertex 1");
+    refused(pliant_world_set_labels(world, bodies[0], small_labels, 2, NULL, 0, &error), &error,
+            PLIANT_WRONG_LENGTH, "2 labels for 1 triangles");
+    refused(pliant_world_set_edges(world, bodies[0], small_labels, 1, &error), &error, PLIANT_OTHER,
+            "edges lack");
+    refused(pliant_world_set_edges(world, bodies[0], NULL, 1, &error), &error, PLIANT_NULL, "edges");
+    refused(pliant_world_edges(world, 77, NULL, NULL, &error), &error, PLIANT_NO_SUCH_BODY, "77");
+    refused(pliant_world_set_mesh(world, bodies[0], faces_of(small, 1, 2, 0), bad_points, &error),
+            &error, PLIANT_BAD_POSITION, "vertex 1");
     refused(pliant_world_advance_motion(world, 2.0, &error), &error, PLIANT_BAD_TIME, "time");
 
     pliant_query query;

@@ -146,7 +146,9 @@ macro_rules! questions {
                 hits: *mut PliantHits,
                 error: *mut PliantError,
             ) -> PliantStatus {
-                ask!($place, (world, query, hits, error), |of, world| world.$method(of $(, $number)?))
+                ask!($place, (world, query, hits, error), |of, world| {
+                    world.$method(of $(, $number)?)
+                })
             }
         )*
     };

@@ -58,7 +58,7 @@ pub(crate) use with_world;
 /// Kinds of questions that have a list each.
 pub(crate) const QUESTIONS: usize = 11;
 
-/// What a call that is inside may change.
+/// The world and its answers, which a call that is inside may change.
 pub(crate) struct Inside {
     pub(crate) world: AnyWorld,
     /// The last list of each question.
@@ -365,7 +365,11 @@ pub unsafe extern "C" fn pliant_world_remove(
     body: u32,
     error: *mut PliantError,
 ) -> PliantStatus {
-    let work = |inside: &mut Inside| with_world!(&mut inside.world, world => world.remove(BodyId(body)).map_err(Refused::from));
+    let work = |inside: &mut Inside| {
+        with_world!(&mut inside.world, world => {
+            world.remove(BodyId(body)).map_err(Refused::from)
+        })
+    };
     // SAFETY: as the header says.
     unsafe { inside(world, error, work) }
 }
@@ -472,7 +476,11 @@ pub unsafe extern "C" fn pliant_world_advance_motion(
     t: f64,
     error: *mut PliantError,
 ) -> PliantStatus {
-    let work = |inside: &mut Inside| with_world!(&mut inside.world, world => world.advance_motion(t).map_err(Refused::from));
+    let work = |inside: &mut Inside| {
+        with_world!(&mut inside.world, world => {
+            world.advance_motion(t).map_err(Refused::from)
+        })
+    };
     // SAFETY: as the header says.
     unsafe { inside(world, error, work) }
 }
@@ -569,7 +577,9 @@ pub unsafe extern "C" fn pliant_world_set_filter(
 ) -> PliantStatus {
     let work = |inside: &mut Inside| {
         let body = BodyId(body);
-        with_world!(&mut inside.world, world => world.set_filter(body, membership, mask).map_err(Refused::from))
+        with_world!(&mut inside.world, world => {
+            world.set_filter(body, membership, mask).map_err(Refused::from)
+        })
     };
     // SAFETY: as the header says.
     unsafe { inside(world, error, work) }
@@ -589,7 +599,9 @@ pub unsafe extern "C" fn pliant_world_set_environment(
 ) -> PliantStatus {
     let work = |inside: &mut Inside| {
         let body = BodyId(body);
-        with_world!(&mut inside.world, world => world.set_environment(body, environment).map_err(Refused::from))
+        with_world!(&mut inside.world, world => {
+            world.set_environment(body, environment).map_err(Refused::from)
+        })
     };
     // SAFETY: as the header says.
     unsafe { inside(world, error, work) }
@@ -609,7 +621,9 @@ pub unsafe extern "C" fn pliant_world_ignore(
 ) -> PliantStatus {
     let work = |inside: &mut Inside| {
         let (a, b) = (BodyId(a), BodyId(b));
-        with_world!(&mut inside.world, world => world.ignore(a, b).map_err(Refused::from))
+        with_world!(&mut inside.world, world => {
+            world.ignore(a, b).map_err(Refused::from)
+        })
     };
     // SAFETY: as the header says.
     unsafe { inside(world, error, work) }
@@ -632,7 +646,9 @@ pub unsafe extern "C" fn pliant_world_set_vertex_groups(
         // SAFETY: as the header says.
         let groups = unsafe { list(groups, count, "groups")? };
         let body = BodyId(body);
-        with_world!(&mut inside.world, world => world.set_vertex_groups(body, groups).map_err(Refused::from))
+        with_world!(&mut inside.world, world => {
+            world.set_vertex_groups(body, groups).map_err(Refused::from)
+        })
     };
     // SAFETY: as the header says.
     unsafe { inside(world, error, work) }
@@ -655,7 +671,9 @@ pub unsafe extern "C" fn pliant_world_set_vertex_thickness(
         // SAFETY: as the header says.
         let all = unsafe { list(thickness, count, "thickness")? };
         let body = BodyId(body);
-        with_world!(&mut inside.world, world => world.set_vertex_thickness(body, all).map_err(Refused::from))
+        with_world!(&mut inside.world, world => {
+            world.set_vertex_thickness(body, all).map_err(Refused::from)
+        })
     };
     // SAFETY: as the header says.
     unsafe { inside(world, error, work) }
@@ -689,7 +707,9 @@ pub unsafe extern "C" fn pliant_world_set_labels(
             neighbours: pairs,
         });
         let body = BodyId(body);
-        with_world!(&mut inside.world, world => world.set_labels(body, labels).map_err(Refused::from))
+        with_world!(&mut inside.world, world => {
+            world.set_labels(body, labels).map_err(Refused::from)
+        })
     };
     // SAFETY: as the header says.
     unsafe { inside(world, error, work) }
@@ -746,7 +766,9 @@ pub unsafe extern "C" fn pliant_world_set_edges(
         // SAFETY: as the header says.
         let edges = unsafe { list(edges.cast::<[u32; 2]>(), count, "edges")? };
         let body = BodyId(body);
-        with_world!(&mut inside.world, world => world.set_edges(body, edges).map_err(Refused::from))
+        with_world!(&mut inside.world, world => {
+            world.set_edges(body, edges).map_err(Refused::from)
+        })
     };
     // SAFETY: as the header says.
     unsafe { inside(world, error, work) }

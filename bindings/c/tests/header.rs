@@ -189,9 +189,11 @@ fn the_version_is_that_of_the_crate() {
 
 #[test]
 fn every_statement_of_the_header_is_for_a_reader_of_100_columns() {
-    let header = header();
-    let long: Vec<_> = header.lines().filter(|line| line.len() > 100).collect();
-    assert_eq!(long, [""; 0]);
+    let classes = fs::read_to_string(root().join("include/pliant.hpp")).unwrap();
+    for header in [header(), classes] {
+        let long: Vec<_> = header.lines().filter(|line| line.len() > 100).collect();
+        assert_eq!(long, [""; 0]);
+    }
 }
 
 /// The folder that has the libraries beside this program.
@@ -266,6 +268,18 @@ fn programs_in_c_and_in_cpp_do_what_they_should() {
     }
 }
 
+/// Flags for the classes, with Eigen where it is installed.
+const CLASSES: [&str; 4] = ["-std=c++17", "-g", "-isystem", "/usr/include/eigen3"];
+
+#[test]
+fn classes_do_what_they_should() {
+    for compiler in ["c++", "clang++"] {
+        if is_there(compiler) {
+            run(compiler, &CLASSES, &root().join("tests/world.cpp"), &[]);
+        }
+    }
+}
+
 #[test]
 #[ignore = "for releases: needs the sanitizers and valgrind"]
 fn programs_run_clean_under_sanitizers_and_valgrind() {
@@ -285,6 +299,24 @@ fn programs_run_clean_under_sanitizers_and_valgrind() {
         ];
         run("cc", &["-std=c11", "-g"], &file, &valgrind);
     }
+    let flags = [&CLASSES[..], &["-fsanitize=address,undefined"]].concat();
+    run("c++", &flags, &root().join("tests/world.cpp"), &[]);
+}
+
+#[test]
+fn classes_have_a_method_for_each_function() {
+    let classes = fs::read_to_string(root().join("include/pliant.hpp")).unwrap();
+    let functions = functions(&code().replace('*', " "), " ");
+    let is_called = |(name, _): &(String, usize)| {
+        classes.contains(&format!("{name},"))
+            || classes.contains(&format!("{name}("))
+            || classes.contains(&format!("{name})"))
+    };
+    let worlds = functions
+        .into_iter()
+        .filter(|it| it.0.starts_with("pliant_world_"));
+    let left: Vec<_> = worlds.filter(|it| !is_called(it)).map(|it| it.0).collect();
+    assert_eq!(left, [""; 0]);
 }
 
 #[test]

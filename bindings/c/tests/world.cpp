@@ -1,0 +1,140 @@
+/* Worlds as classes: arrays of C++ and of Eigen's form, errors as exceptions, visitors. C++17. */
+#include "pliant.hpp"
+
+#if __has_include(<Eigen/Core>)
+#include <Eigen/Core>
+#define HAS_EIGEN
+#endif
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#define CHECK(condition)                                                                           \
+    do {                                                                                           \
+        if (!(condition)) {                                                                        \
+            std::fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);           \
+            std::exit(1);                                                                          \
+        }                                                                                          \
+    } while (0)
+
+/* What Eigen's matrices have: columns behind each other. */
+template <class T> struct Matrix {
+    std::vector<T> numbers;
+    std::ptrdiff_t count;
+
+    explicit Matrix(const std::vector<std::array<T, 3>> &rows)
+        : numbers(3 * rows.size()), count(std::ptrdiff_t(rows.size())) {
+        for (std::size_t row = 0; row < rows.size(); row++) {
+            for (std::size_t column = 0; column < 3; column++) {
+                numbers[column * rows.size() + row] = rows[row][column];
+            }
+        }
+    }
+    const T *data() const { return numbers.data(); }
+    std::ptrdiff_t rows() const { return count; }
+    std::ptrdiff_t cols() const { return 3; }
+    std::ptrdiff_t rowStride() const { return 1; }
+    std::ptrdiff_t colStride() const { return count; }
+};
+
+int main() {
+    const std::vector<std::array<int, 3>> triangle{{0, 1, 2}};
+    const std::vector<std::array<double, 3>> floor_at{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}};
+    const std::vector<std::array<double, 3>> leaf_at{{0, 0, 2}, {1, 0, 3}, {0, 1, 3}};
+    const std::vector<std::array<float, 3>> leaf_to{{0, 0, -2}, {1, 0, 1}, {0, 1, 1}};
+
+    pliant::World world;
+    const auto floor = world.add(triangle, floor_at);
+    const auto leaf = world.add(Matrix<int>(triangle), Matrix<double>(leaf_at));
+    CHECK(world.triangle_count(leaf) == 1 && world.vertex_count(floor) == 3);
+    CHECK(world.edges(leaf).size() == 6 && world.edges(leaf)[5] == 2);
+    world.set_motion(leaf, Matrix<float>(leaf_to));
+    const auto impacts = world.vertex_triangle_impacts(pliant::between(floor, leaf));
+    CHECK(impacts.count == 1 && impacts.high[0] > 0.49);
+    const double step = world.collision_free_step();
+    CHECK(step > 0.4 && step < 0.5);
+    pliant::World copy = world.clone();
+    world.advance_motion(step);
+    CHECK(world.intersections().count == 0);
+    copy.advance_motion(1.0);
+    CHECK(copy.intersections(pliant::world).count == 1);
+    CHECK(copy.contacts().kinds[0] == PLIANT_CROSSING);
+    CHECK(copy.contacts({}, PLIANT_TOUCHING).count == 0);
+    CHECK(copy.crossing_edges().count == 2 && copy.adjacent_intersections().count == 0);
+    CHECK(copy.close_triangle_pairs(pliant::everything, 0.1).count == 1);
+    CHECK(copy.close_vertex_triangle_pairs(pliant::everything, 1.0).count == 2);
+    CHECK(copy.close_edge_edge_pairs(pliant::everything, 0.1).count == 0);
+    CHECK(copy.edge_edge_candidates(pliant::everything, 9.0).count == 9);
+    CHECK(copy.vertex_triangle_candidates(pliant::everything, 9.0).count == 6);
+    CHECK(copy.edge_edge_impacts().count == 0);
+
+    /* Visitors, first hits, and exceptions on their way. */
+    std::size_t seen = 0;
+    pliant::Query query;
+    query.visit = [&](const pliant_hits &some) { return seen += some.count, false; };
+    CHECK(copy.intersections(query).count == 0 && seen == 1);
+    query.visit = [](const pliant_hits &) -> bool { throw std::string("mine"); };
+    bool thrown = false;
+    try {
+        copy.intersections(query);
+    } catch (const std::string &what) {
+        thrown = what == "mine";
+    }
+    CHECK(thrown);
+    query = {};
+    query.first = true;
+    CHECK(copy.intersections(query).count == 1);
+    query = {};
+    query.interrupt = [] { return true; };
+    pliant_status status = PLIANT_OK;
+    try {
+        copy.intersections(query);
+    } catch (const pliant::Error &error) {
+        status = error.facts.status;
+    }
+    CHECK(status == PLIANT_INTERRUPTED);
+
+    try {
+        world.set_positions(leaf, floor_at);
+        world.set_positions(77, floor_at);
+        CHECK(false);
+    } catch (const pliant::Error &error) {
+        CHECK(error.facts.status == PLIANT_NO_SUCH_BODY && error.facts.body == 77);
+        CHECK(std::string(error.what()).find("77") != std::string::npos);
+    }
+    const std::vector<std::array<std::uint32_t, 2>> own{{2, 1}, {1, 0}, {2, 0}};
+    world.set_edges(leaf, own);
+    CHECK(world.edges(leaf)[0] == 1 && world.edges(leaf)[2] == 0 && world.edges(leaf)[3] == 1);
+    CHECK(world.positions(leaf) == floor_at);
+#ifdef HAS_EIGEN
+    Eigen::MatrixXd at(3, 3);
+    at << 0, 0, -1, 1, 0, 1, 0, 1, 1;
+    Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor> corners(1, 3);
+    corners << 0, 1, 2;
+    const auto other = world.add(corners, at);
+    const auto part = world.add(Eigen::MatrixXi(corners), at.topRows(3));
+    CHECK(world.positions(other) == world.positions(part) && world.positions(part)[1][2] == 1.0);
+    const Eigen::Ref<const Eigen::MatrixXd> lifted = at;
+    world.set_positions(other, lifted);
+    world.set_positions(part, at.cast<float>().eval());
+    CHECK(world.intersections(pliant::between(other, part)).count == 1);
+    world.remove(other);
+    world.remove(part);
+#endif
+    world.set_filter(leaf, 1, 2);
+    world.set_environment(leaf, 1);
+    world.ignore(floor, leaf);
+    CHECK(world.intersections().count == 0);
+    world.set_vertex_groups(leaf, std::vector<std::uint32_t>(3, 1));
+    world.set_vertex_thickness(leaf, std::vector<double>(3, 0.5));
+    world.set_labels(leaf, std::vector<std::uint32_t>(1, 4));
+    world.set_rest_positions(leaf, leaf_at);
+    world.set_mesh(leaf, triangle, leaf_at);
+    world.remove(leaf);
+    pliant::World moved = std::move(world);
+    CHECK(moved.intersections().count == 0);
+    return 0;
+}

@@ -196,6 +196,64 @@ fn every_statement_of_the_header_is_for_a_reader_of_100_columns() {
     }
 }
 
+/// Runs a command, and returns what it printed; it must succeed.
+fn succeeds(command: &mut Command) -> String {
+    let ran = command.output().unwrap();
+    let said = String::from_utf8_lossy(&ran.stderr);
+    assert!(ran.status.success(), "{command:?}: {said}");
+    String::from_utf8(ran.stdout).unwrap()
+}
+
+#[test]
+#[ignore = "for releases: needs CMake and pkg-config"]
+fn strangers_find_what_is_installed() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let install = root().join("install");
+    succeeds(
+        Command::new(install)
+            .arg(at.join("there"))
+            .env("PROFILE", "dev"),
+    );
+    let project = "cmake_minimum_required(VERSION 3.18)
+        project(stranger C CXX)
+        find_package(pliant 0.1.0 REQUIRED)
+        add_executable(world_c world.c)
+        target_link_libraries(world_c pliant::pliant m)
+        add_executable(world_cpp world.cpp)
+        target_compile_features(world_cpp PRIVATE cxx_std_17)
+        target_link_libraries(world_cpp pliant::pliant)";
+    fs::write(at.join("CMakeLists.txt"), project).unwrap();
+    for file in ["world.c", "world.cpp"] {
+        fs::copy(root().join("tests").join(file), at.join(file)).unwrap();
+    }
+    let there = format!("-DCMAKE_PREFIX_PATH={}", at.join("there").display());
+    let build = at.join("build");
+    succeeds(
+        Command::new("cmake")
+            .arg("-S")
+            .arg(at)
+            .arg("-B")
+            .arg(&build)
+            .arg(there),
+    );
+    succeeds(Command::new("cmake").arg("--build").arg(&build));
+    succeeds(&mut Command::new(build.join("world_c")));
+    succeeds(&mut Command::new(build.join("world_cpp")));
+
+    let packages = at.join("there/lib/pkgconfig");
+    let mut flags = Command::new("pkg-config");
+    flags
+        .args(["--cflags", "--libs", "pliant"])
+        .env("PKG_CONFIG_PATH", packages);
+    let flags = succeeds(&mut flags);
+    let program = at.join("by_pkg_config");
+    let mut compile = Command::new("cc");
+    compile.arg(at.join("world.c")).arg("-o").arg(&program);
+    succeeds(compile.args(flags.split_whitespace()).arg("-lm"));
+    succeeds(Command::new(program).env("LD_LIBRARY_PATH", at.join("there/lib")));
+}
+
 /// The folder that has the libraries beside this program.
 fn libraries() -> PathBuf {
     let program = current_exe().unwrap();

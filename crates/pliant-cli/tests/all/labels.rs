@@ -1,5 +1,6 @@
 //! `pliant check --labels`: parts of a body that may meet.
 
+use crate::common::npz::integers;
 use crate::common::{check, folder};
 use serde_json::{Value, json};
 use std::fs;
@@ -21,15 +22,7 @@ fn json(folder: &Path, arguments: &[&str]) -> Value {
 
 /// Writes labels as numpy does.
 fn labels(folder: &Path, name: &str, labels: &[i64]) {
-    let head = format!(
-        "{{'descr': '<i8', 'fortran_order': False, 'shape': ({},), }}",
-        labels.len()
-    );
-    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-    bytes.extend((head.len() as u16).to_le_bytes());
-    bytes.extend(head.as_bytes());
-    bytes.extend(labels.iter().flat_map(|label| label.to_le_bytes()));
-    fs::write(folder.join(name), bytes).unwrap();
+    fs::write(folder.join(name), integers(labels)).unwrap();
 }
 
 /// A folder with a strip that moves, one that gets another mesh, and labels for them.

@@ -9,7 +9,7 @@
 //! cargo test --release -p pliant-cli --test all memory:: -- --ignored --nocapture
 //! ```
 
-use crate::common::npz::Surface;
+use crate::common::npz::{Surface, integers};
 use crate::common::{Measured, measured};
 use std::fmt::Write;
 use std::fs;
@@ -139,6 +139,27 @@ fn memory_is_a_multiple_of_two_frames() {
 }
 
 /// Close pairs that do not meet are not kept, however many there are.
+#[test]
+fn memory_of_labels() {
+    let folder = tempfile::tempdir().unwrap();
+    let side = 400;
+    let surface = Surface::new(side, 1);
+    fs::write(folder.path().join("a.npz"), surface.file()).unwrap();
+    let triangles = 2 * i64::from(side - 1).pow(2);
+    for (labels, most) in [(20, 40.0), (triangles, 320.0)] {
+        let each: Vec<i64> = (0..triangles).map(|it| it * labels / triangles).collect();
+        fs::write(folder.path().join("labels.npy"), integers(&each)).unwrap();
+        let [Some(with), Some(without)] = [&["a.npz", "--labels", "0=labels.npy"][..], &["a.npz"]]
+            .map(|it| peak(folder.path(), it))
+        else {
+            return;
+        };
+        let of_each = with.saturating_sub(without) as f64 / triangles as f64;
+        println!("{labels} labels: {of_each:.0} bytes a triangle");
+        assert!(of_each <= most, "{labels}: {of_each}");
+    }
+}
+
 #[test]
 fn memory_of_what_meets_on_the_way() {
     let folder = tempfile::tempdir().unwrap();

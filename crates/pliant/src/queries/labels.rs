@@ -11,7 +11,7 @@ use crate::mesh::{EMPTY, Order};
 
 /// Most labels at a vertex that are listed as pairs of neighbours. A vertex with more of them is a
 /// hub, and each lists the hub.
-const MOST_AT_A_VERTEX: usize = 32;
+const MOST_AT_A_VERTEX: usize = 8;
 
 /// Pairs of a body that its labels leave out, by the caller's numbers.
 ///
@@ -45,10 +45,10 @@ impl LabelPairs {
         let of_triangles: Vec<u32> = labels.of_triangles.iter().map(|&it| rank(it)).collect();
         let live = triangles.iter().zip(&of_triangles);
         let live = live.filter(|(corners, _)| **corners != EMPTY);
-        let mut at: Vec<[u32; 2]> = live
-            .clone()
-            .flat_map(|(corners, &label)| corners.map(|vertex| [vertex, label]))
-            .collect();
+        let mut at: Vec<[u32; 2]> = Vec::with_capacity(3 * triangles.len());
+        for (corners, &label) in live.clone() {
+            at.extend(corners.map(|vertex| [vertex, label]));
+        }
         at.sort_unstable();
         at.dedup();
         let at_vertices = Rows::new(&at, vertices);
@@ -72,7 +72,10 @@ impl LabelPairs {
             pairs.extend(known.flat_map(|[a, b]| [[a, b], [b, a]]));
         } else {
             at.retain(|&[_, label]| label != Labels::NONE);
-            for star in at.chunk_by(|a, b| a[0] == b[0]) {
+            let stars = at.chunk_by(|a, b| a[0] == b[0]);
+            let few = stars.clone().filter(|star| star.len() <= MOST_AT_A_VERTEX);
+            pairs.reserve_exact(few.map(|star| star.len() * (star.len() - 1)).sum());
+            for star in stars {
                 if star.len() > MOST_AT_A_VERTEX {
                     pairs.extend(star.iter().map(|&[_, label]| [label, hubs]));
                     hubs += 1;

@@ -165,7 +165,7 @@ fn elements_have_the_labels_of_all_their_triangles() {
 /// More labels at a vertex than are listed as pairs: two fans, of which each triangle has its own.
 #[test]
 fn many_labels_at_one_vertex_are_neighbours() {
-    for blades in [10, 32, 33, 70] {
+    for blades in [7, 8, 9, 70] {
         let fan = |apex: u32, first: u32| {
             (0..blades).map(move |it| [apex, first + 2 * it, first + 2 * it + 1])
         };

@@ -247,3 +247,14 @@ impl Surface {
         file
     }
 }
+
+/// A NumPy array of integers, (n,), as a file.
+pub(crate) fn integers(numbers: &[i64]) -> Vec<u8> {
+    let shape = format!("({},)", numbers.len());
+    let head = format!("{{'descr': '<i8', 'fortran_order': False, 'shape': {shape}, }}");
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((head.len() as u16).to_le_bytes());
+    bytes.extend(head.as_bytes());
+    bytes.extend(numbers.iter().flat_map(|number| number.to_le_bytes()));
+    bytes
+}

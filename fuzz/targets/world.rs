@@ -10,8 +10,8 @@ use std::ops::ControlFlow;
 use arbitrary::Arbitrary;
 use pliant::reference::{Moving, Timed};
 use pliant::{
-    BodyId, BroadPhase, Degree, Labels, Options, Pair, Partition, Scalar, Selection, Update, World,
-    reference,
+    BodyId, BroadPhase, Degree, FeaturePairs, HitRows, Labels, Options, Pair, Partition, Scalar,
+    Selection, Update, World, reference,
 };
 use pliant_fuzz::places::Grid;
 
@@ -941,6 +941,27 @@ impl<S: Scalar> Lived<S> {
         figures.for_each(|it| check_figures(it, most));
         let found = found.map(|it| ([it.pair.edge_a, it.pair.edge_b], ()));
         assert_eq!(self.found_by_ends([one.id, other.id], found), expected);
+
+        // Contacts stand for all pairs of both lists, rows have each hit once.
+        let vertices = self.world.close_vertex_triangle_pairs(of, distance).all();
+        let vertices = vertices.expect("both are there").to_vec();
+        let mut edges = Vec::new();
+        let asked = self
+            .world
+            .close_edge_edge_pairs(of, distance)
+            .unsorted(&mut edges);
+        asked.expect("both are there");
+        let mut contacts = FeaturePairs::new();
+        let found = contacts.update(&self.world, &vertices, &edges);
+        found.expect("the lists are of this world");
+        let count: u32 = contacts.all().iter().map(|it| it.multiplicity).sum();
+        assert_eq!(count as usize, vertices.len() + edges.len());
+        let mut rows = HitRows::new();
+        let found = rows.update(&self.world, &edges);
+        found.expect("the list is of this world");
+        let mut places = rows.places().to_vec();
+        places.sort_unstable();
+        assert!(places.into_iter().eq(0..edges.len() as u32));
 
         // Between two bodies, the first is the one named first in the selection.
         let expected = close_triangles(&self.known[a], &self.known[b], distance);

@@ -202,10 +202,10 @@ Exit code 0: nothing intersects, is at most D apart, or meets on the way. 1: som
 2: it could not be checked; standard error says why.
 Memory: at most 3.5 times two frames (positions and triangles) and 12 MB, however many frames \
 there are. 7.5 times two frames where the mesh changes from file to file, and 11 times with \
---swept. Five frames of positions more with --rest. With --labels 40 bytes a triangle, for parts of \
-many triangles each, and at most 320. Beside it the pairs of one frame, where they are listed, left \
-out or written, and their places: up to 60 bytes a vertex that is hit. With --crossing 32 bytes a \
-pair and 200 a triangle near one. Of glTF bodies that move, \
+--swept. Five frames of positions more with --rest. With --labels 40 bytes a triangle, for parts \
+of many triangles each, and at most 320. Beside it the pairs of one frame, where they are listed, \
+left out or written, and their places: up to 60 bytes a vertex that is hit. With --crossing 32 \
+bytes a pair and 200 a triangle near one. Of glTF bodies that move, \
 the rest positions, joints, deltas and keys.
 Too much? Check fewer bodies at once, or use --count or --first. \
 --max-memory refuses larger frames before they are read.";

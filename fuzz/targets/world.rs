@@ -1332,7 +1332,8 @@ impl<S: Scalar> Draft<S> {
             return;
         }
         for vertex in known.triangles.concat() {
-            if !self.is_used(vertex) {
+            // One that was merged into another and placed again is a new one.
+            if !self.is_used(vertex) && !self.placed.contains(&vertex) {
                 self.vertices[vertex as usize] = None;
             }
         }

@@ -550,7 +550,8 @@ def beside_rust():
     lines = file.read_text().splitlines()
     rows = [line.split() for line in lines if line.startswith("pliant_")]
     assert rows, file
-    return file.name, lines[0].split(":")[0], "\n".join(f"| {' | '.join(row)} |" for row in rows)
+    header = f"{lines[0].split(':')[0]}; {lines[-1]}"
+    return file.name, header, "\n".join(f"| {' | '.join(row)} |" for row in rows)
 
 
 def beside_ipctk_codimensional():

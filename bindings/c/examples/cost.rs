@@ -1,7 +1,7 @@
 //! Cost of the door: calls of the C functions over calls of Rust's, on the same pairs.
 //!
-//! Rows as Rust has them should cost at most 1.05, and columns as Eigen has them 1.3. Figures are
-//! medians of rounds in turn.
+//! Rows lie as Rust has them, columns as Eigen does; the aims are 1.05 and 1.3. Figures are medians
+//! of rounds in turn.
 
 use pliant::{Selection, World};
 use pliant_c::{

@@ -1,11 +1,14 @@
 /* pliant.h: exact collision detection for triangle meshes that deform. C11 and C++11.
 
    Every function that can be refused returns a status, PLIANT_OK or another, and says more in
-   `error`, unless that is NULL. A refused call changes nothing but what it was to write. Nothing is
-   printed, but by PLIANT_PANIC, and no state is global. No exception leaves a function.
+   `error`, unless that is NULL; `error` is written only then. A refused call changes nothing but
+   what it was to write. Nothing is printed, but by PLIANT_PANIC, and no state is global. No
+   exception leaves a function.
 
-   Arrays are read and written during the call only. They need no alignment. All may be read by
-   other threads at the time. */
+   Arrays of numbers are read and written during the call only, and need no alignment. Other threads
+   may read them at the time.
+
+   Structures may grow until version 1: compile with the header of the library that you run. */
 #ifndef PLIANT_H
 #define PLIANT_H
 
@@ -53,7 +56,8 @@ enum {
     PLIANT_INTERRUPTED = 31,         /* pliant_query.interrupt said so */
     PLIANT_BAD_MARGIN = 32,          /* a radius is negative, infinite or NaN */
     PLIANT_BAD_DISTANCE = 33,        /* a distance is negative, infinite or NaN */
-    PLIANT_BAD_TIME = 34             /* a time is not from 0 to 1 */
+    PLIANT_BAD_TIME = 34,            /* a time is not from 0 to 1 */
+    PLIANT_BAD_THICKNESS = 35        /* a thickness is negative, infinite or NaN */
 };
 
 /* Why a call was refused. Facts that do not apply are UINT32_MAX, UINT64_MAX, or NaN. */
@@ -177,7 +181,7 @@ enum {
 };
 
 /* Whether and how triangles intersect, as closed sets; decided exactly. `corners` are 6 points: the
-   corners of one triangle, then of the other. Some tens of nanoseconds a pair, microseconds where
+   corners of one triangle, then of the other. Some hundred nanoseconds a pair, microseconds where
    rounding hides a sign.
 
    PLIANT_NULL, PLIANT_BAD_SCALAR, PLIANT_DIFFERENT_COUNTS, PLIANT_BAD_CORNER. */
@@ -197,7 +201,6 @@ typedef struct pliant_world pliant_world;
 
 /* How a world works. No option changes an answer. */
 typedef struct pliant_options {
-    size_t struct_size;     /* set by pliant_options_default */
     pliant_scalar scalar;   /* of positions: PLIANT_F64 */
     uint32_t threads;       /* that share the work of a question, at most, from 1: 1 */
     uint32_t degree;        /* most children of a node, 2, 4 or 8: 8 */
@@ -311,7 +314,7 @@ pliant_status pliant_world_set_vertex_groups(pliant_world *world, uint32_t body,
                                              pliant_error *error);
 
 /* Makes every vertex of a body a ball of this radius, at least 0. For candidates, close pairs and
-   free steps. PLIANT_NO_SUCH_BODY, PLIANT_WRONG_LENGTH, PLIANT_OTHER. */
+   free steps. PLIANT_NO_SUCH_BODY, PLIANT_WRONG_LENGTH, PLIANT_BAD_THICKNESS. */
 pliant_status pliant_world_set_vertex_thickness(pliant_world *world, uint32_t body,
                                                 const double *thickness, size_t count,
                                                 pliant_error *error);
@@ -353,7 +356,8 @@ typedef struct pliant_query {
        number than 0. The hits are there during the call. NULL: no visitor. */
     int (*visit)(void *user, const pliant_hits *some);
     /* Ends the question early by another number than 0. Any thread of the world may call it,
-       several at a time, at least every 10 milliseconds. NULL: never. */
+       several at a time, and nearly always does every 10 milliseconds; Rust's document of
+       Query::interrupt_if names what takes longer. NULL: never. */
     int (*interrupt)(void *user);
     void *user; /* given to both */
 } pliant_query;

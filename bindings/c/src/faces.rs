@@ -1,6 +1,6 @@
 //! Triangles of the caller, of indices of any size.
 
-use crate::status::{BAD_INDEX, Refused, VERTEX_OUT_OF_RANGE};
+use crate::status::{BAD_INDEX, Refused, VERTEX_OUT_OF_RANGE, countable};
 use std::ffi::c_void;
 
 /// `pliant_faces`: where the corners of triangles lie.
@@ -31,6 +31,7 @@ impl PliantFaces {
         if self.data.is_null() && self.count > 0 {
             return Err(Refused::null("faces.data"));
         }
+        countable(self.count, "faces.count")?;
         let size = self.bytes as isize;
         if ![2, 4, 8].contains(&self.bytes) || self.is_signed > 1 {
             let (bytes, is_signed) = (self.bytes, self.is_signed);

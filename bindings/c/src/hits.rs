@@ -31,6 +31,21 @@ pub struct PliantHits {
     pub high: *const f64,
 }
 
+impl PliantHits {
+    /// No hits.
+    pub const NONE: Self = Self {
+        count: 0,
+        pairs: null(),
+        kinds: null(),
+        distances: null(),
+        directions: null(),
+        weights: null(),
+        points: null(),
+        low: null(),
+        high: null(),
+    };
+}
+
 /// Columns of hits, kept from call to call.
 #[derive(Default)]
 pub(crate) struct Columns {

@@ -4,7 +4,7 @@
 //! `[[[f64; 3]; 4]]` has them, they are read where they lie. Else some thousands are copied at a
 //! time.
 
-use crate::status::{BAD_SCALAR, DIFFERENT_COUNTS, Refused, WOULD_ROUND};
+use crate::status::{BAD_SCALAR, DIFFERENT_COUNTS, Refused, WOULD_ROUND, countable};
 use pliant::Scalar;
 use std::borrow::Cow;
 use std::ffi::c_void;
@@ -83,29 +83,21 @@ impl Number for f64 {
 /// # Safety
 ///
 /// `points` may be read as it says.
-pub(crate) unsafe fn positions<'c, S: Number>(
+pub(crate) unsafe fn positions<S: Number>(
     points: &PliantPoints,
-) -> Result<Cow<'c, [[S; 3]]>, Refused> {
+) -> Result<Cow<'_, [[S; 3]]>, Refused> {
     if points.data.is_null() && points.count > 0 {
         return Err(Refused::null("positions.data"));
     }
+    countable(points.count, "positions.count")?;
     match points.scalar {
         F32 | F64 if points.scalar == S::SCALAR => {
-            let alone = std::slice::from_ref(points).first_chunk();
-            let in_place = alone.and_then(|points: &[PliantPoints; 1]| {
-                let (count, scalar) = (points[0].count, points[0].scalar);
-                let corners = Corners {
-                    points,
-                    count,
-                    scalar,
-                };
-                corners.in_place::<S>().map(<[_]>::as_flattened)
-            });
-            if let Some(in_place) = in_place {
-                // SAFETY: the caller's array outlives the call, and this borrow ends with it.
-                let in_place =
-                    unsafe { std::slice::from_raw_parts(in_place.as_ptr(), points.count) };
-                return Ok(Cow::Borrowed(in_place));
+            let (rows, size) = (points.data.cast::<[S; 3]>(), size_of::<S>());
+            let lie_so = points.strides(size) == [3 * size as isize, size as isize];
+            if lie_so && rows.is_aligned() && !rows.is_null() {
+                // SAFETY: the rows may be read, lie behind each other, and are aligned.
+                let rows = unsafe { std::slice::from_raw_parts(rows, points.count) };
+                return Ok(Cow::Borrowed(rows));
             }
             // SAFETY: the points are there, and of this type.
             let get = |point| unsafe { points.get::<S>(point) };

@@ -27,20 +27,22 @@ pub struct PliantQuery {
     pub user: *mut c_void,
 }
 
-/// A query for all hits of everything, sorted.
-const ALL: PliantQuery = PliantQuery {
-    of: PliantSelection {
-        kind: 0,
-        a: 0,
-        b: 0,
-    },
-    first: 0,
-    unsorted: 0,
-    at_most: 0,
-    visit: None,
-    interrupt: None,
-    user: std::ptr::null_mut(),
-};
+impl PliantQuery {
+    /// All hits of everything, sorted.
+    pub const ALL: Self = Self {
+        of: PliantSelection {
+            kind: 0,
+            a: 0,
+            b: 0,
+        },
+        first: 0,
+        unsorted: 0,
+        at_most: 0,
+        visit: None,
+        interrupt: None,
+        user: std::ptr::null_mut(),
+    };
+}
 
 /// The caller's pointer, which threads hand to the caller's function.
 #[derive(Clone, Copy)]
@@ -103,7 +105,7 @@ macro_rules! ask {
     ) => {{
         let work = |inside: &mut Inside| {
             // SAFETY: as the header says.
-            let asked = unsafe { $query.as_ref() }.copied().unwrap_or(ALL);
+            let asked = unsafe { $query.as_ref() }.copied().unwrap_or(PliantQuery::ALL);
             let $of: Selection = asked.of.checked()?;
             let user = User(asked.user);
             let interrupt = asked.interrupt;

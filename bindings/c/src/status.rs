@@ -44,6 +44,7 @@ statuses! {
     BAD_MARGIN = 32;
     BAD_DISTANCE = 33;
     BAD_TIME = 34;
+    BAD_THICKNESS = 35;
 }
 
 /// Bytes of a message, the 0 at its end included.
@@ -106,6 +107,17 @@ impl Refused {
     }
 }
 
+/// Refuses a count of things that 32-bit numbers cannot keep apart, by its name in the header.
+pub(crate) fn countable(count: usize, name: &str) -> Result<(), Refused> {
+    if u32::try_from(count).is_ok() {
+        return Ok(());
+    }
+    let words = format_args!("{name} is {count}, more than 32-bit numbers keep apart");
+    let mut refused = Refused::new(TOO_LARGE, words);
+    (refused.0.count, refused.0.limit) = (count as u64, u32::MAX.into());
+    Err(refused)
+}
+
 impl From<Error> for Refused {
     fn from(error: Error) -> Self {
         let message = error.to_string();
@@ -158,6 +170,9 @@ impl From<Error> for Refused {
             ErrorKind::Interrupted => plain(INTERRUPTED),
             ErrorKind::BadMargin { radius } => with(BAD_MARGIN, &|it| it.number = radius),
             ErrorKind::BadDistance { distance } => with(BAD_DISTANCE, &|it| it.number = distance),
+            ErrorKind::BadThickness { vertex, thickness } => with(BAD_THICKNESS, &|it| {
+                (it.vertex, it.number) = (vertex as u32, thickness);
+            }),
             ErrorKind::BadTime { time } => with(BAD_TIME, &|it| it.number = time),
             _ => plain(OTHER),
         }

@@ -5,20 +5,17 @@ use crate::hits::Columns;
 use crate::points::{F32, F64, Number, PliantPoints, PliantScalar, positions};
 use crate::status::{
     BAD_OPTION, BAD_SCALAR, BUSY, NULL, PANIC, PliantError, PliantStatus, Refused, WRONG_LENGTH,
-    call,
+    call, countable,
 };
 use pliant::{BodyId, BroadPhase, Degree, Labels, Options, Partition, Selection, Update, World};
 use std::cell::UnsafeCell;
 use std::num::{NonZeroU32, NonZeroUsize};
-use std::slice;
 use std::sync::atomic::{AtomicU8, Ordering};
 
 /// `pliant_options`: how a world works; no option changes an answer.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct PliantOptions {
-    /// Size of this structure, as the caller's header has it.
-    pub struct_size: usize,
     /// Precision of positions.
     pub scalar: PliantScalar,
     /// Threads that share the work, at most.
@@ -157,7 +154,6 @@ pub(crate) unsafe fn inside(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pliant_options_default(options: *mut PliantOptions) {
     let defaults = PliantOptions {
-        struct_size: size_of::<PliantOptions>(),
         scalar: F64,
         threads: 1,
         degree: 8,
@@ -181,10 +177,6 @@ impl PliantOptions {
                 format_args!("options.{name} is {value}; give {are}"),
             )
         };
-        if self.struct_size != size_of::<Self>() {
-            let words = "options.struct_size is another; begin with pliant_options_default";
-            return Err(Refused::new(BAD_OPTION, words));
-        }
         let mut options = Options::default();
         let many = "at least 1";
         options.threads = NonZeroUsize::new(self.threads as usize)
@@ -354,24 +346,39 @@ pub unsafe extern "C" fn pliant_world_add(
     unsafe { inside(world, error, work) }
 }
 
-/// `pliant_world_remove`.
-///
-/// # Safety
-///
-/// Pointers are NULL, or as the header says.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn pliant_world_remove(
-    world: *mut PliantWorld,
-    body: u32,
-    error: *mut PliantError,
-) -> PliantStatus {
-    let work = |inside: &mut Inside| {
-        with_world!(&mut inside.world, world => {
-            world.remove(BodyId(body)).map_err(Refused::from)
-        })
+/// Functions that hand numbers to a method of worlds.
+macro_rules! calls {
+    ($($name:ident($($number:ident: $type:ty),+), |$world:ident| $call:expr;)*) => {
+        $(
+            #[doc = concat!("`", stringify!($name), "`.")]
+            ///
+            /// # Safety
+            ///
+            /// Pointers are NULL, or as the header says.
+            #[unsafe(no_mangle)]
+            pub unsafe extern "C" fn $name(
+                world: *mut PliantWorld,
+                $($number: $type,)+
+                error: *mut PliantError,
+            ) -> PliantStatus {
+                let work = |inside: &mut Inside| {
+                    with_world!(&mut inside.world, $world => $call.map_err(Refused::from))
+                };
+                // SAFETY: as the header says.
+                unsafe { inside(world, error, work) }
+            }
+        )*
     };
-    // SAFETY: as the header says.
-    unsafe { inside(world, error, work) }
+}
+
+calls! {
+    pliant_world_remove(body: u32), |world| world.remove(BodyId(body));
+    pliant_world_advance_motion(t: f64), |world| world.advance_motion(t);
+    pliant_world_set_filter(body: u32, membership: u32, mask: u32),
+        |world| world.set_filter(BodyId(body), membership, mask);
+    pliant_world_set_environment(body: u32, environment: u32),
+        |world| world.set_environment(BodyId(body), environment);
+    pliant_world_ignore(a: u32, b: u32), |world| world.ignore(BodyId(a), BodyId(b));
 }
 
 /// A call of a world that takes a shape.
@@ -465,26 +472,6 @@ pub unsafe extern "C" fn pliant_world_set_rest_positions(
     unsafe { inside(world, error, work) }
 }
 
-/// `pliant_world_advance_motion`.
-///
-/// # Safety
-///
-/// Pointers are NULL, or as the header says.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn pliant_world_advance_motion(
-    world: *mut PliantWorld,
-    t: f64,
-    error: *mut PliantError,
-) -> PliantStatus {
-    let work = |inside: &mut Inside| {
-        with_world!(&mut inside.world, world => {
-            world.advance_motion(t).map_err(Refused::from)
-        })
-    };
-    // SAFETY: as the header says.
-    unsafe { inside(world, error, work) }
-}
-
 /// `pliant_world_positions`.
 ///
 /// # Safety
@@ -562,73 +549,6 @@ pub unsafe extern "C" fn pliant_world_counts(
     unsafe { inside(world, error, work) }
 }
 
-/// `pliant_world_set_filter`.
-///
-/// # Safety
-///
-/// Pointers are NULL, or as the header says.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn pliant_world_set_filter(
-    world: *mut PliantWorld,
-    body: u32,
-    membership: u32,
-    mask: u32,
-    error: *mut PliantError,
-) -> PliantStatus {
-    let work = |inside: &mut Inside| {
-        let body = BodyId(body);
-        with_world!(&mut inside.world, world => {
-            world.set_filter(body, membership, mask).map_err(Refused::from)
-        })
-    };
-    // SAFETY: as the header says.
-    unsafe { inside(world, error, work) }
-}
-
-/// `pliant_world_set_environment`.
-///
-/// # Safety
-///
-/// Pointers are NULL, or as the header says.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn pliant_world_set_environment(
-    world: *mut PliantWorld,
-    body: u32,
-    environment: u32,
-    error: *mut PliantError,
-) -> PliantStatus {
-    let work = |inside: &mut Inside| {
-        let body = BodyId(body);
-        with_world!(&mut inside.world, world => {
-            world.set_environment(body, environment).map_err(Refused::from)
-        })
-    };
-    // SAFETY: as the header says.
-    unsafe { inside(world, error, work) }
-}
-
-/// `pliant_world_ignore`.
-///
-/// # Safety
-///
-/// Pointers are NULL, or as the header says.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn pliant_world_ignore(
-    world: *mut PliantWorld,
-    a: u32,
-    b: u32,
-    error: *mut PliantError,
-) -> PliantStatus {
-    let work = |inside: &mut Inside| {
-        let (a, b) = (BodyId(a), BodyId(b));
-        with_world!(&mut inside.world, world => {
-            world.ignore(a, b).map_err(Refused::from)
-        })
-    };
-    // SAFETY: as the header says.
-    unsafe { inside(world, error, work) }
-}
-
 /// `pliant_world_set_vertex_groups`.
 ///
 /// # Safety
@@ -647,7 +567,7 @@ pub unsafe extern "C" fn pliant_world_set_vertex_groups(
         let groups = unsafe { list(groups, count, "groups")? };
         let body = BodyId(body);
         with_world!(&mut inside.world, world => {
-            world.set_vertex_groups(body, groups).map_err(Refused::from)
+            world.set_vertex_groups(body, &groups).map_err(Refused::from)
         })
     };
     // SAFETY: as the header says.
@@ -672,7 +592,7 @@ pub unsafe extern "C" fn pliant_world_set_vertex_thickness(
         let all = unsafe { list(thickness, count, "thickness")? };
         let body = BodyId(body);
         with_world!(&mut inside.world, world => {
-            world.set_vertex_thickness(body, all).map_err(Refused::from)
+            world.set_vertex_thickness(body, &all).map_err(Refused::from)
         })
     };
     // SAFETY: as the header says.
@@ -702,9 +622,9 @@ pub unsafe extern "C" fn pliant_world_set_labels(
             let pairs = (!neighbours.is_null()).then(|| list(pairs, neighbour_count, "neighbours"));
             (all.transpose()?, pairs.transpose()?)
         };
-        let labels = of_triangles.map(|of_triangles| Labels {
+        let labels = of_triangles.as_deref().map(|of_triangles| Labels {
             of_triangles,
-            neighbours: pairs,
+            neighbours: pairs.as_deref(),
         });
         let body = BodyId(body);
         with_world!(&mut inside.world, world => {
@@ -767,7 +687,7 @@ pub unsafe extern "C" fn pliant_world_set_edges(
         let edges = unsafe { list(edges.cast::<[u32; 2]>(), count, "edges")? };
         let body = BodyId(body);
         with_world!(&mut inside.world, world => {
-            world.set_edges(body, edges).map_err(Refused::from)
+            world.set_edges(body, &edges).map_err(Refused::from)
         })
     };
     // SAFETY: as the header says.
@@ -804,26 +724,21 @@ pub unsafe extern "C" fn pliant_world_edges(
     unsafe { inside(world, error, work) }
 }
 
-/// A list of the caller's, by its name in the header.
+/// Copies a list of the caller's, by its name in the header.
 ///
 /// # Safety
 ///
-/// It is NULL, or may be read as long as the result is used.
-unsafe fn list<'l, T>(data: *const T, count: usize, name: &str) -> Result<&'l [T], Refused> {
-    if count == 0 {
-        return Ok(&[]);
-    }
-    if data.is_null() {
+/// It is NULL, or may be read.
+unsafe fn list<T: Copy>(data: *const T, count: usize, name: &str) -> Result<Vec<T>, Refused> {
+    if data.is_null() && count > 0 {
         return Err(Refused::null(name));
     }
-    if !data.is_aligned() || count > isize::MAX as usize / size_of::<T>() {
-        return Err(Refused::new(
-            NULL,
-            format_args!("{name} is not aligned, or longer than memory; give an array"),
-        ));
-    }
-    // SAFETY: it is aligned, not longer than memory, and may be read.
-    Ok(unsafe { slice::from_raw_parts(data, count) })
+    countable(count, name)?;
+    let at = |place| data.wrapping_add(place);
+    // SAFETY: the caller says that these may be read.
+    Ok((0..count)
+        .map(|place| unsafe { at(place).read_unaligned() })
+        .collect())
 }
 
 /// `pliant_selection`: whom a question is about.

@@ -1,8 +1,8 @@
 //! Lives of worlds, driven through the functions of C and through Rust in step: the same answers.
 
-use pliant::{BodyId, ContactKind, Scalar, Selection, World};
+use pliant::{BodyId, ContactKind, Pair, Scalar, Selection, World};
 use pliant_c::*;
-use std::ptr::{null, null_mut};
+use std::ptr::null_mut;
 use std::slice;
 
 /// Numbers that look random.
@@ -54,32 +54,6 @@ fn faces(triangles: &[[i64; 3]]) -> PliantFaces {
     }
 }
 
-const QUERY: PliantQuery = PliantQuery {
-    of: PliantSelection {
-        kind: 0,
-        a: 0,
-        b: 0,
-    },
-    first: 0,
-    unsorted: 0,
-    at_most: 0,
-    visit: None,
-    interrupt: None,
-    user: null_mut(),
-};
-
-const HITS: PliantHits = PliantHits {
-    count: 0,
-    pairs: null(),
-    kinds: null(),
-    distances: null(),
-    directions: null(),
-    weights: null(),
-    points: null(),
-    low: null(),
-    high: null(),
-};
-
 /// A column of hits, as bits.
 fn column<T: Copy>(start: *const T, count: usize, of: usize) -> Vec<T> {
     if start.is_null() {
@@ -106,8 +80,11 @@ fn asked(
     of: PliantSelection,
     write: &dyn Fn(&PliantHits) -> Lines,
 ) -> Lines {
-    let query = PliantQuery { of, ..QUERY };
-    let mut hits = HITS;
+    let query = PliantQuery {
+        of,
+        ..PliantQuery::ALL
+    };
+    let mut hits = PliantHits::NONE;
     assert_eq!(ask(&query, &mut hits), 0);
     let lines = write(&hits);
     let mut count = 0_usize;
@@ -216,10 +193,13 @@ fn compare<S: Scalar>(c: *mut PliantWorld, rust: &mut World<S>, of: Selection) {
     }
     let row = |pair: [u32; 4]| format!("{pair:?}");
     let to = |direction: Option<[f64; 3]>| direction.unwrap_or_default();
-    let number = |kind: ContactKind| match kind {
-        ContactKind::Touching => 1,
-        ContactKind::Overlapping => 2,
-        ContactKind::Crossing => 3,
+    let contact = |pair: Pair, kind: ContactKind| {
+        let kind = match kind {
+            ContactKind::Touching => 1,
+            ContactKind::Overlapping => 2,
+            ContactKind::Crossing => 3,
+        };
+        format!("{} {kind}", row(pair.into()))
     };
     ask!(
         pliant_world_intersections(),
@@ -230,19 +210,19 @@ fn compare<S: Scalar>(c: *mut PliantWorld, rust: &mut World<S>, of: Selection) {
     ask!(
         pliant_world_contacts(0),
         with_kinds,
-        |it| { format!("{} {}", row(it.pair.into()), number(it.kind)) },
+        |it| contact(it.pair, it.kind),
         rust.contacts(of)
     );
     ask!(
         pliant_world_contacts(3),
         with_kinds,
-        |it| { format!("{} {}", row(it.pair.into()), number(it.kind)) },
+        |it| contact(it.pair, it.kind),
         rust.contacts(of).only(ContactKind::Crossing)
     );
     ask!(
         pliant_world_adjacent_intersections(0),
         with_kinds,
-        |it| { format!("{} {}", row(it.pair.into()), number(it.kind)) },
+        |it| contact(it.pair, it.kind),
         rust.adjacent_intersections(of)
     );
     ask!(
@@ -331,7 +311,6 @@ fn life<S: Scalar>(seed: u64, cast: fn(f64) -> S) {
     let random = &mut Random(seed);
     let mut rust = World::<S>::new();
     let mut options = PliantOptions {
-        struct_size: 0,
         scalar: 0,
         threads: 0,
         degree: 0,

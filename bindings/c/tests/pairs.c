@@ -1,18 +1,9 @@
-/* Every function on single pairs, with arrays of every layout and every wrong argument. C11 and C++17. */
-#include "pliant.h"
+/* Every function on single pairs, with arrays of every layout and every wrong argument. C11 and
+   C++17. */
+#include "check.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-
-#define CHECK(condition)                                                                           \
-    do {                                                                                           \
-        if (!(condition)) {                                                                        \
-            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);                \
-            exit(1);                                                                               \
-        }                                                                                          \
-    } while (0)
 
 enum { PAIRS = 3000 };
 
@@ -165,14 +156,6 @@ static void single_precision(void) {
     CHECK(pliant_edge_edge_impacts(narrow, narrow, 0.0, NULL, NULL, NULL, NULL) == PLIANT_OK);
     CHECK(pliant_edge_edge_impacts(narrow, wide, 0.0, NULL, NULL, NULL, NULL) ==
           PLIANT_DIFFERENT_COUNTS);
-}
-
-static void refused(pliant_status status, const pliant_error *error, pliant_status expected,
-                    const char *words) {
-    if (status != expected || error->status != expected || !strstr(error->message, words)) {
-        fprintf(stderr, "%d, not %d; said: %s; not: %s\n", status, expected, error->message, words);
-        exit(1);
-    }
 }
 
 static void wrong_arguments(void) {

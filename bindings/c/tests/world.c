@@ -1,27 +1,9 @@
 /* A world from C: bodies of every layout, answers side by side, visitors, and every wrong argument.
    C11 and C++17. */
-#include "pliant.h"
+#include "check.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-
-#define CHECK(condition)                                                                           \
-    do {                                                                                           \
-        if (!(condition)) {                                                                        \
-            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);                \
-            exit(1);                                                                               \
-        }                                                                                          \
-    } while (0)
-
-static void refused(pliant_status status, const pliant_error *error, pliant_status expected,
-                    const char *words) {
-    if (status != expected || error->status != expected || !strstr(error->message, words)) {
-        fprintf(stderr, "%d, not %d; said: %s; not: %s\n", status, expected, error->message, words);
-        exit(1);
-    }
-}
 
 static pliant_points points_of(const void *data, size_t count, pliant_scalar scalar) {
     pliant_points points;
@@ -209,7 +191,7 @@ static void wrong_arguments(void) {
 
     refused(pliant_world_new(NULL, NULL, &error), &error, PLIANT_NULL, "world is NULL");
     memset(&options, 0, sizeof options);
-    refused(pliant_world_new(&options, &none, &error), &error, PLIANT_BAD_OPTION, "struct_size");
+    refused(pliant_world_new(&options, &none, &error), &error, PLIANT_BAD_OPTION, "threads is 0");
     pliant_options_default(NULL);
     for (int field = 0; field < 8; field++) {
         pliant_options_default(&options);
@@ -287,12 +269,22 @@ static void wrong_arguments(void) {
             "groups");
     const double thick[3] = {0, -1, 0};
     refused(pliant_world_set_vertex_thickness(world, bodies[0], thick, 3, &error), &error,
-            PLIANT_OTHER, "thickness of vertex 1");
+            PLIANT_BAD_THICKNESS, "thickness of vertex 1");
+    CHECK(error.vertex == 1 && error.number == -1.0);
+    refused(pliant_world_add(world, faces_of(small, SIZE_MAX, 2, 0), floor_points, NULL, &error),
+            &error, PLIANT_TOO_LARGE, "faces.count");
+    refused(pliant_world_set_positions(world, bodies[0], points_of(bad, SIZE_MAX / 2, PLIANT_F64),
+                                       &error),
+            &error, PLIANT_TOO_LARGE, "positions.count");
+    refused(pliant_world_set_vertex_groups(world, bodies[0], small_labels, SIZE_MAX, &error),
+            &error, PLIANT_TOO_LARGE, "groups");
+    CHECK(error.count == SIZE_MAX && error.limit == UINT32_MAX);
     refused(pliant_world_set_labels(world, bodies[0], small_labels, 2, NULL, 0, &error), &error,
             PLIANT_WRONG_LENGTH, "2 labels for 1 triangles");
     refused(pliant_world_set_edges(world, bodies[0], small_labels, 1, &error), &error, PLIANT_OTHER,
             "edges lack");
-    refused(pliant_world_set_edges(world, bodies[0], NULL, 1, &error), &error, PLIANT_NULL, "edges");
+    refused(pliant_world_set_edges(world, bodies[0], NULL, 1, &error), &error, PLIANT_NULL,
+            "edges is");
     refused(pliant_world_edges(world, 77, NULL, NULL, &error), &error, PLIANT_NO_SUCH_BODY, "77");
     refused(pliant_world_set_mesh(world, bodies[0], faces_of(small, 1, 2, 0), bad_points, &error),
             &error, PLIANT_BAD_POSITION, "vertex 1");

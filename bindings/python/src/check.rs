@@ -186,16 +186,15 @@ impl Name {
 #[pyfunction]
 #[pyo3(
     signature = (
-        *paths, itself=false, within=None, rest=None, crossing=false, ignore_adjacent=false,
-        swept=false, first=false, weld=true, weld_tolerance=0.0, split=None, groups=None,
-        ignore=None, baseline=None, skip_degenerate=false, crossing_edges=false, places=false,
-        frames=None, clip=None, fps=30.0, threads=Threads::Count(1), labels=None
+        *paths, itself=false, within=None, rest=None, labels=None, crossing=false,
+        ignore_adjacent=false, swept=false, first=false, weld=true, weld_tolerance=0.0,
+        split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false, crossing_edges=false, places=false,
+        frames=None, clip=None, fps=30.0, threads=Threads::Count(1)
     ),
-    text_signature = "(*paths, itself=False, within=None, rest=None, crossing=False, \
+    text_signature = "(*paths, itself=False, within=None, rest=None, labels=None, crossing=False, \
         ignore_adjacent=False, swept=False, first=False, weld=True, weld_tolerance=0.0, \
         split=None, groups=None, ignore=None, baseline=None, skip_degenerate=False, \
-        crossing_edges=False, places=False, frames=None, clip=None, fps=30.0, threads=1, \
-        labels=None)"
+        crossing_edges=False, places=False, frames=None, clip=None, fps=30.0, threads=1)"
 )]
 #[expect(
     clippy::too_many_arguments,
@@ -208,6 +207,7 @@ pub(crate) fn check(
     itself: bool,
     within: Option<f64>,
     rest: Option<Known>,
+    labels: Option<BTreeMap<Name, PathBuf>>,
     crossing: bool,
     ignore_adjacent: bool,
     swept: bool,
@@ -225,7 +225,6 @@ pub(crate) fn check(
     clip: Option<String>,
     fps: f64,
     threads: Threads,
-    labels: Option<BTreeMap<Name, PathBuf>>,
 ) -> Result<Check> {
     let group = |(name, bodies): (String, Vec<Name>)| {
         let bodies = bodies.into_iter().map(Name::into_text);

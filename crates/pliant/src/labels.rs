@@ -1,6 +1,6 @@
 //! Labels of triangles: parts of a body, and which of them are neighbours.
 
-/// Labels of a body's triangles: which pairs of triangles are never looked for.
+/// Labels of a body's triangles, and which of them are neighbours.
 ///
 /// See [`World::set_labels`](crate::World::set_labels).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -436,6 +436,7 @@ def check(
     itself: bool = False,
     within: float | None = None,
     rest: int | str | PathLike[str] | None = None,
+    labels: Mapping[_Name, str | PathLike[str]] | None = None,
     crossing: bool = False,
     ignore_adjacent: bool = False,
     swept: bool = False,
@@ -453,7 +454,6 @@ def check(
     clip: str | None = None,
     fps: float = 30.0,
     threads: int | Literal["all"] = 1,
-    labels: Mapping[_Name, str | PathLike[str]] | None = None,
 ) -> Check:
     """Checks files frame by frame, as the program `pliant check` does: an iterator of Frame."""
 

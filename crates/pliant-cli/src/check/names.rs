@@ -1,4 +1,4 @@
-//! Names of bodies and groups on the command line: `NAME=BODY,BODY` and `A,B`.
+//! Names of bodies, groups and files on the command line: `NAME=BODY,BODY`, `A,B`, `BODY=FILE`.
 
 use pliant_check::{Baseline, Group, LabelFile, Rest};
 use pliant_io::shown;

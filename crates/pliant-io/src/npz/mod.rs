@@ -45,20 +45,21 @@ pub(crate) fn integers(file: &Found, max_memory: u64) -> Result<Vec<i64>, Fault>
         let advice = format!("type {written} cannot be read; save integers");
         return Err(Reason::Unsupported(advice).into());
     }
-    let bytes = count.saturating_mul(dtype.size as u64);
-    let there = array.left();
-    if there < bytes {
+    let (bytes, there) = (count.saturating_mul(dtype.size as u64), array.left());
+    if there != bytes {
         let message = format!("{count} numbers need {bytes} bytes, and {there} are there");
-        return Err(Reason::Truncated(message).into());
+        let reason = if there < bytes {
+            Reason::Truncated
+        } else {
+            Reason::Malformed
+        };
+        return Err(reason(message).into());
     }
     Account::new(max_memory).enter(there.saturating_add(count.saturating_mul(8)))?;
-    let all = whole(&mut array)?;
+    let all = whole(&mut array);
+    // Before the reader's own error: a change while reading is the likelier cause of it.
     array.unchanged()?;
-    if all.len() as u64 != bytes {
-        let there = all.len();
-        let message = format!("{count} numbers need {bytes} bytes, and {there} are there");
-        return Err(Reason::Malformed(message).into());
-    }
+    let all = all?;
     let numbers = all.chunks_exact(dtype.size);
     Ok(numbers.map(|bytes| integer(bytes, &dtype)).collect())
 }

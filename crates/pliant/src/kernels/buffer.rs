@@ -69,8 +69,14 @@ impl<T: Copy + Default> Buffer<T> {
 
     /// Keeps the items for which `keeps` returns true, in order.
     pub(crate) fn retain(&mut self, keeps: impl Fn(&T) -> bool) {
-        let mut kept = 0;
-        for place in 0..self.len() {
+        self.retain_from(0, keeps);
+    }
+
+    /// Keeps the items before index `start`, and of the others, in order, the ones for which `keeps`
+    /// returns true.
+    pub(crate) fn retain_from(&mut self, start: usize, keeps: impl Fn(&T) -> bool) {
+        let mut kept = start;
+        for place in start..self.len() {
             let item = self.as_slice()[place];
             if keeps(&item) {
                 self.tail_mut(kept)[0] = item;

@@ -23,7 +23,7 @@ use pliant_exact::{contact_kind, intersect};
 /// # Ok::<(), pliant::Error>(())
 /// ```
 ///
-/// Cost, on one thread: some tens of nanoseconds a pair, and some microseconds where rounding hides
+/// Cost, on one thread: some hundred nanoseconds a pair, and some microseconds where rounding hides
 /// a sign.
 ///
 /// # Errors

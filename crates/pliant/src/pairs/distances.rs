@@ -3,7 +3,7 @@
 use super::{check, padded};
 use crate::error::Error;
 use crate::kernels::{Instructions, dispatch};
-use crate::queries::{ClosestFeatures, closest_of};
+use crate::queries::{ClosestFeatures, closest_of, count, direction, weights};
 use crate::threads::Interrupt;
 use crate::world::Scalar;
 use pliant_exact::distance::Closest;
@@ -95,30 +95,15 @@ pub fn pair_distances<S: Scalar>(
             let corners = [0, 1, 2, 3].map(|lane| four[lane].each_ref());
             let interrupt = &interrupt;
             closest_of(i, are_edges, &corners, some.len(), interrupt, |_, closest: &Closest| {
-                let [x, y] = closest.along;
-                let weights = if are_edges {
-                    [1.0 - x, x, 1.0 - y, y]
-                } else {
-                    [1.0, (1.0 - x - y).max(0.0), x, y]
-                };
+                let weights = weights(are_edges, closest);
                 take(PairDistance {
                     distance: closest.distance,
-                    direction: (closest.distance != 0.0).then_some(closest.direction),
+                    direction: direction(closest),
                     weights,
-                    features: features(are_edges, weights),
+                    features: ClosestFeatures::of(are_edges, count(&weights)),
                 });
             });
         }
     });
     Ok(())
-}
-
-/// Features with these weights.
-fn features(are_edges: bool, weights: [f64; 4]) -> ClosestFeatures {
-    match weights.iter().filter(|&&weight| weight > 0.0).count() {
-        2 => ClosestFeatures::VertexVertex,
-        3 => ClosestFeatures::VertexEdge,
-        _ if are_edges => ClosestFeatures::EdgeEdge,
-        _ => ClosestFeatures::VertexFace,
-    }
 }

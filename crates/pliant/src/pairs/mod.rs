@@ -1,8 +1,8 @@
 //! Single pairs of elements or of triangles, without a world: for callers with a search of their
 //! own.
 //!
-//! Each answer is the one that a [`World`](crate::World) gives for such a pair. Pairs are looked at
-//! in order, side by side in lanes, on one thread.
+//! Each answer is the one that a [`World`](crate::World) gives for such a pair. One thread looks at
+//! them in order, at distances and impacts side by side in lanes.
 
 mod contacts;
 mod distances;

@@ -260,7 +260,7 @@ pub(crate) struct LeafTest<'q, S> {
     /// Positions in the rest shape, if both bodies are one that has it, and the kind leaves pairs
     /// out.
     pub(crate) rest: Option<&'q Points<S>>,
-    /// Pairs that labels leave out, likewise. Kinds that test triangles get none of these.
+    /// Pairs that labels leave out, likewise. Kinds that test triangles are shown none of them.
     pub(crate) labels: Option<&'q LabelPairs>,
     /// Whether both bodies are one.
     pub(crate) is_one_body: bool,

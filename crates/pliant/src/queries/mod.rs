@@ -41,7 +41,7 @@ pub(crate) use adjacent::{AdjacentSearch, AdjacentSink, StarredBody, TreeAdjacen
 pub(crate) use candidates::{Candidates, EdgeEdgeCandidates, Margin, VertexTriangleCandidates};
 pub(crate) use close::{
     Close, Measurable, NearTriangles, NearestPair, close, closest_of, closest_of_triangles,
-    corners_of, measure_all,
+    corners_of, count, direction, measure_all, weights,
 };
 pub(crate) use contacts::Contacts;
 pub(crate) use crossing_edges::CrossingEdges;

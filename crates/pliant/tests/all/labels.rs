@@ -130,15 +130,12 @@ fn elements_have_the_labels_of_all_their_triangles() {
     let body = world.add(&strip, &positions).unwrap();
     let labels = [0, 0, 1, 2, Labels::NONE];
     world.set_labels(body, Some(of(&labels))).unwrap();
-    let itself = Selection::Within(body);
-    let close = world
-        .close_vertex_triangle_pairs(itself, 9.0)
-        .all()
-        .unwrap();
-    let pairs: Vec<_> = close
-        .iter()
-        .map(|it| [it.pair.vertex, it.pair.triangle])
-        .collect();
+    let close = |world: &mut World<f64>| -> Vec<[u32; 2]> {
+        let close = world.close_vertex_triangle_pairs(Selection::Within(body), 9.0);
+        let close = close.all().unwrap().iter();
+        close.map(|it| [it.pair.vertex, it.pair.triangle]).collect()
+    };
+    let pairs = close(world);
     // Vertex 2 has triangles of 0 and 1; both are next to 2, which triangle 3 is.
     assert!(!pairs.contains(&[2, 3]));
     // Vertex 1 is only of 0, and so is vertex 0. All labels but none are at vertex 3.
@@ -150,14 +147,7 @@ fn elements_have_the_labels_of_all_their_triangles() {
         neighbours: Some(&[[2, 1], [9, 9], [Labels::NONE, 0]]),
     };
     world.set_labels(body, Some(given)).unwrap();
-    let close = world
-        .close_vertex_triangle_pairs(itself, 9.0)
-        .all()
-        .unwrap();
-    let pairs: Vec<_> = close
-        .iter()
-        .map(|it| [it.pair.vertex, it.pair.triangle])
-        .collect();
+    let pairs = close(world);
     assert!(pairs.contains(&[0, 3]) && pairs.contains(&[0, 4]) && pairs.contains(&[2, 3]));
     assert!(pairs.contains(&[1, 2]) && !pairs.contains(&[0, 1]));
 }

@@ -69,19 +69,6 @@ pub(crate) trait ElementCandidates:
     }
 }
 
-/// Moves the items for which `stays` holds to the front, in order, and returns them.
-fn stay<T: Copy>(items: &mut [T], stays: impl Fn(&T) -> bool) -> &mut [T] {
-    let mut kept = 0;
-    for place in 0..items.len() {
-        let item = items[place];
-        if stays(&item) {
-            items[kept] = item;
-            kept += 1;
-        }
-    }
-    &mut items[..kept]
-}
-
 /// The distance at which two elements are near, by their corners, from that of elements without
 /// thickness.
 #[inline]
@@ -148,12 +135,12 @@ where
         let before = found.hits.len();
         let pairs_before = found.statistics.pairs;
         self.candidates.test(leaves, batch, found);
+        if let Some(labels) = leaves.labels {
+            let stays = |&hit: &[u32; 2]| !K::are_left_out(leaves, labels, hit);
+            found.hits.retain_from(before, stays);
+        }
         let exact = &mut found.statistics.exact_decisions;
         let new = found.hits.tail_mut(before);
-        let new = match leaves.labels {
-            Some(labels) => stay(new, |&hit| !K::are_left_out(leaves, labels, hit)),
-            None => new,
-        };
         let positions = leaves.shapes.map(|shape| shape.positions);
         let mut keep = |new: &mut [[u32; 2]], positions: [&Points<K::Scalar>; 2], close| {
             let shape = (positions, close);

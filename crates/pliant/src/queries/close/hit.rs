@@ -106,26 +106,31 @@ impl CloseVertexTriangle {
     /// Features of vertex and triangle that hold the closest points, from the weights that are
     /// above 0.
     pub fn features(&self) -> ClosestFeatures {
-        match count(&self.barycentric) {
-            1 => ClosestFeatures::VertexVertex,
-            2 => ClosestFeatures::VertexEdge,
-            _ => ClosestFeatures::VertexFace,
-        }
+        ClosestFeatures::of(false, 1 + count(&self.barycentric))
     }
 }
 
 impl CloseEdgeEdge {
     /// Features of both edges that hold the closest points, from the weights that are above 0.
     pub fn features(&self) -> ClosestFeatures {
-        match count(&self.barycentric_a) + count(&self.barycentric_b) {
-            2 => ClosestFeatures::VertexVertex,
-            3 => ClosestFeatures::VertexEdge,
-            _ => ClosestFeatures::EdgeEdge,
+        let vertices = count(&self.barycentric_a) + count(&self.barycentric_b);
+        ClosestFeatures::of(true, vertices)
+    }
+}
+
+impl ClosestFeatures {
+    /// Features of two edges, or of a vertex and a triangle, with this many vertices together.
+    pub(crate) fn of(are_edges: bool, vertices: usize) -> Self {
+        match vertices {
+            2 => Self::VertexVertex,
+            3 => Self::VertexEdge,
+            _ if are_edges => Self::EdgeEdge,
+            _ => Self::VertexFace,
         }
     }
 }
 
 /// Number of corners whose weight is above 0.
-fn count(barycentric: &[f64]) -> usize {
+pub(crate) fn count(barycentric: &[f64]) -> usize {
     barycentric.iter().filter(|&&x| x > 0.0).count()
 }

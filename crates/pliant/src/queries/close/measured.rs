@@ -42,12 +42,12 @@ impl ElementPair for VertexTriangle {
 
     #[inline]
     fn close(self, closest: &Closest) -> CloseVertexTriangle {
-        let [x, y] = closest.along;
+        let [_, a, b, c] = weights(false, closest);
         CloseVertexTriangle {
             pair: self,
             distance: closest.distance,
             direction: direction(closest),
-            barycentric: [(1.0 - x - y).max(0.0), x, y],
+            barycentric: [a, b, c],
         }
     }
 }
@@ -57,13 +57,13 @@ impl ElementPair for EdgeEdge {
 
     #[inline]
     fn close(self, closest: &Closest) -> CloseEdgeEdge {
-        let [x, y] = closest.along;
+        let [a, b, c, d] = weights(true, closest);
         CloseEdgeEdge {
             pair: self,
             distance: closest.distance,
             direction: direction(closest),
-            barycentric_a: [1.0 - x, x],
-            barycentric_b: [1.0 - y, y],
+            barycentric_a: [a, b],
+            barycentric_b: [c, d],
         }
     }
 }
@@ -106,8 +106,20 @@ macro_rules! measurable {
 measurable!(VertexTriangle, CloseVertexTriangle);
 measurable!(EdgeEdge, CloseEdgeEdge);
 
+/// Weights of the four corners of two elements in their closest points.
 #[inline]
-fn direction(closest: &Closest) -> Option<[f64; 3]> {
+pub(crate) fn weights(are_edges: bool, closest: &Closest) -> [f64; 4] {
+    let [x, y] = closest.along;
+    if are_edges {
+        [1.0 - x, x, 1.0 - y, y]
+    } else {
+        [1.0, (1.0 - x - y).max(0.0), x, y]
+    }
+}
+
+/// Direction of the closest points; none if they touch.
+#[inline]
+pub(crate) fn direction(closest: &Closest) -> Option<[f64; 3]> {
     (closest.distance != 0.0).then_some(closest.direction)
 }
 

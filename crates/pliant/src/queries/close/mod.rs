@@ -16,6 +16,7 @@ pub(crate) use closest::closest_of;
 pub(super) use closest::primitives;
 pub(crate) use elements::{Close, ElementCandidates};
 pub(super) use elements::{corners_at, length};
+pub(crate) use hit::count;
 pub use hit::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, ClosestFeatures};
-pub(crate) use measured::{ElementPair, Measurable, measure_all};
+pub(crate) use measured::{ElementPair, Measurable, direction, measure_all, weights};
 pub(crate) use triangles::{NearTriangles, NearestPair, close, closest_of_triangles, corners_of};

@@ -188,8 +188,9 @@ impl Name {
     signature = (
         *paths, itself=false, within=None, rest=None, labels=None, crossing=false,
         ignore_adjacent=false, swept=false, first=false, weld=true, weld_tolerance=0.0,
-        split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false, crossing_edges=false, places=false,
-        frames=None, clip=None, fps=30.0, threads=Threads::Count(1)
+        split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false,
+        crossing_edges=false, places=false, frames=None, clip=None, fps=30.0,
+        threads=Threads::Count(1)
     ),
     text_signature = "(*paths, itself=False, within=None, rest=None, labels=None, crossing=False, \
         ignore_adjacent=False, swept=False, first=False, weld=True, weld_tolerance=0.0, \

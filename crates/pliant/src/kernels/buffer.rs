@@ -72,8 +72,8 @@ impl<T: Copy + Default> Buffer<T> {
         self.retain_from(0, keeps);
     }
 
-    /// Keeps the items before index `start`, and of the others, in order, the ones for which `keeps`
-    /// returns true.
+    /// Keeps the items before index `start`, and the others for which `keeps` returns true, in
+    /// order.
     pub(crate) fn retain_from(&mut self, start: usize, keeps: impl Fn(&T) -> bool) {
         let mut kept = start;
         for place in start..self.len() {

@@ -283,7 +283,7 @@ def page(record, date):
     near_aims = near_record.claims("near")
     ipctk, header, beside = beside_ipctk()
     codim, codim_header, codim_found = beside_ipctk_codimensional()
-    door, door_header, door_rows = beside_rust()
+    from_c, from_c_header, from_c_rows = beside_rust()
     close = newest("close-*.json")
     close_record = Record(close)
     close_aims = close_record.claims("close")
@@ -385,12 +385,12 @@ of edges and vertices, {codim_found["vv"]} of vertices. All are ours, too; \
 ## From C
 
 Calls of C on single pairs over calls of Rust (`cargo run --release -p pliant-c --example cost`, \
-[record](records/{door}); {door_header}).
+[record](records/{from_c}); {from_c_header}).
 Points lie in rows, or in columns as Eigen has them. The aims were 1.05 and 1.3.
 
 | | ns a pair in Rust | rows | columns |
 |---|---|---|---|
-{door_rows}
+{from_c_rows}
 
 ## What is close
 

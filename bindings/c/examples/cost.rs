@@ -1,4 +1,4 @@
-//! Cost of the door: calls of the C functions over calls of Rust's, on the same pairs.
+//! Cost of the bindings: calls of the C functions over calls of Rust's, on the same pairs.
 //!
 //! Rows lie as Rust has them, columns as Eigen does; the aims are 1.05 and 1.3. Figures are medians
 //! of rounds in turn.

@@ -33,6 +33,10 @@ fn strips() -> TempDir {
         ("skin.obj", folded(0.0)),
         ("turn_0.obj", folded(0.0)),
         (
+            "two.obj",
+            folded(0.0) + "v 8 0 0\nv 9 0 0\nv 8 1 0\nf 9 10 11\n",
+        ),
+        (
             "turn_1.obj",
             "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_owned(),
         ),
@@ -129,16 +133,15 @@ fn labels_that_fit_nothing_are_refused() {
         ),
         (
             &[
-                "arm_*.obj",
+                "two.obj",
                 "--split",
                 "components",
                 "--labels",
-                "0=parts.npy",
-                "--labels",
-                "parts.npy",
+                "two.obj#1=parts.npy",
             ],
-            "BODY=FILE.npy",
+            "a part of one: two.obj#1",
         ),
+        (&["arm_*.obj", "--labels", "parts.npy"], "BODY=FILE.npy"),
         (
             &["arm_*.obj", "--labels", "0=parts.npy", "--swept"],
             "--swept",

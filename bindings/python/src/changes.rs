@@ -4,60 +4,9 @@ use crate::answers::{Any, Column, Rows, class};
 use crate::arrays::{self, numbers};
 use crate::error::{Result, alone_with, refused};
 use crate::selection::Body;
-use pliant::{BodyId, Changed, Edited, Fused, Listed, Piece, Thing};
+use pliant::{BodyId, Changed, Edited, Fused, Piece, RowChanges, Thing};
 use pyo3::prelude::*;
 use std::sync::Mutex;
-
-/// Rows of four numbers, by the kinds of their two things.
-macro_rules! rows {
-    ($($row:ident: $a:ident, $b:ident;)*) => {
-        $(
-            #[derive(Clone, Copy)]
-            struct $row([u32; 4]);
-
-            impl From<[u32; 4]> for $row {
-                fn from(row: [u32; 4]) -> Self {
-                    Self(row)
-                }
-            }
-
-            impl Listed for $row {
-                const THINGS: [Thing; 2] = [Thing::$a, Thing::$b];
-
-                fn things(&self) -> [(BodyId, u32); 2] {
-                    let [body_a, a, body_b, b] = self.0;
-                    [(BodyId(body_a), a), (BodyId(body_b), b)]
-                }
-            }
-        )*
-    };
-}
-
-rows! {
-    TriangleRow: Triangle, Triangle;
-    VertexTriangleRow: Vertex, Triangle;
-    EdgeRow: Edge, Edge;
-    EdgeTriangleRow: Edge, Triangle;
-}
-
-/// Changes of rows of one kind.
-enum AnyChanges {
-    Triangles(pliant::Changes<TriangleRow>),
-    VertexTriangle(pliant::Changes<VertexTriangleRow>),
-    EdgeEdge(pliant::Changes<EdgeRow>),
-    EdgeTriangle(pliant::Changes<EdgeTriangleRow>),
-}
-
-macro_rules! with_changes {
-    ($changes:expr, $name:ident => $work:expr) => {
-        match $changes {
-            AnyChanges::Triangles($name) => $work,
-            AnyChanges::VertexTriangle($name) => $work,
-            AnyChanges::EdgeEdge($name) => $work,
-            AnyChanges::EdgeTriangle($name) => $work,
-        }
-    };
-}
 
 /// Memory of the last list of hits: what began, persists and ended is told of the next.
 ///
@@ -79,7 +28,7 @@ macro_rules! with_changes {
 /// Raises pliant.Error: BadOption for another kind.
 #[pyclass(frozen, module = "pliant")]
 pub(crate) struct Changes {
-    state: Mutex<AnyChanges>,
+    state: Mutex<RowChanges>,
 }
 
 #[pymethods]
@@ -87,11 +36,11 @@ impl Changes {
     #[new]
     #[pyo3(signature = (kind="triangles"))]
     fn new(kind: &str) -> Result<Self> {
-        let state = match kind {
-            "triangles" => AnyChanges::Triangles(pliant::Changes::new()),
-            "vertex-triangle" => AnyChanges::VertexTriangle(pliant::Changes::new()),
-            "edge-edge" => AnyChanges::EdgeEdge(pliant::Changes::new()),
-            "edge-triangle" => AnyChanges::EdgeTriangle(pliant::Changes::new()),
+        let kinds = match kind {
+            "triangles" => [Thing::Triangle; 2],
+            "vertex-triangle" => [Thing::Vertex, Thing::Triangle],
+            "edge-edge" => [Thing::Edge; 2],
+            "edge-triangle" => [Thing::Edge, Thing::Triangle],
             other => {
                 return Err(refused!(BadOption:
                     "kind is {other:?}; it can be one of \"triangles\", \"vertex-triangle\", \
@@ -99,7 +48,7 @@ impl Changes {
             }
         };
         Ok(Self {
-            state: Mutex::new(state),
+            state: Mutex::new(RowChanges::new(kinds)),
         })
     }
 
@@ -113,9 +62,10 @@ impl Changes {
     ///
     /// Cost: O(k) for sorted rows, some nanoseconds each.
     fn update<'py>(&self, py: Python<'py>, rows: &Any<'py>) -> Result<Any<'py>> {
-        let rows = arrays::rows_of(rows, "rows", "queries give")?;
+        let rows = arrays::rows_of::<4>(rows, "rows", "queries give")?;
+        let things = |[body_a, a, body_b, b]: [u32; 4]| [(BodyId(body_a), a), (BodyId(body_b), b)];
         let told = alone_with(py, &self.state, move |changes| {
-            Ok(with_changes!(changes, changes => told(changes.update(&listed(rows)))))
+            Ok(told(changes.update(rows.into_iter().map(things))))
         })?;
         let Told {
             numbers,
@@ -142,7 +92,7 @@ impl Changes {
             removed_vertices: list("removed_vertices")?,
         };
         alone_with(py, &self.state, |changes| {
-            with_changes!(changes, changes => changes.edited(body.0, &edited));
+            changes.edited(body.0, &edited);
             Ok(())
         })
     }
@@ -160,7 +110,7 @@ impl Changes {
             });
         }
         alone_with(py, &self.state, |changes| {
-            with_changes!(changes, changes => changes.split(body.0, &all));
+            changes.split(body.0, &all);
             Ok(())
         })
     }
@@ -172,7 +122,7 @@ impl Changes {
             vertices: field(fused, "vertices")?,
         };
         alone_with(py, &self.state, |changes| {
-            with_changes!(changes, changes => changes.fused(kept.0, gone.0, &fused));
+            changes.fused(kept.0, gone.0, &fused);
             Ok(())
         })
     }
@@ -191,17 +141,8 @@ impl Changes {
             arrays::rows_of(given, name, "World.edges gives")
         };
         let (before, after) = (ends(before, "before")?, ends(after, "after")?);
-        let follow = |thing: Thing, of: BodyId, number: u32| {
-            let place = number as usize;
-            let is_same = thing != Thing::Edge
-                || of != body.0
-                || before
-                    .get(place)
-                    .is_some_and(|ends| after.get(place) == Some(ends));
-            is_same.then_some((of, number))
-        };
         alone_with(py, &self.state, |changes| {
-            with_changes!(changes, changes => changes.follow(follow));
+            changes.edges_edited(body.0, &before, &after);
             Ok(())
         })
     }
@@ -224,10 +165,6 @@ fn told(changed: Changed<'_>) -> Told {
         ended: ended.clone().map(|ended| row(ended.things)).collect(),
         ended_numbers: ended.map(|ended| ended.number).collect(),
     }
-}
-
-fn listed<R: From<[u32; 4]>>(rows: Vec<[u32; 4]>) -> Vec<R> {
-    rows.into_iter().map(R::from).collect()
 }
 
 /// A list of numbers of a named tuple.

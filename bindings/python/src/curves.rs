@@ -5,7 +5,7 @@ use crate::arrays;
 use crate::error::Result;
 use crate::world::World;
 use numpy::{IntoPyArray, PyArrayMethods};
-use pliant::Pair;
+use pliant::{CurveColumns, Pair, SegmentColumns};
 use pliant_check::with_world;
 use pyo3::prelude::*;
 
@@ -26,12 +26,12 @@ use pyo3::prelude::*;
 #[pyfunction]
 pub(crate) fn segments<'py>(py: Python<'py>, world: &World, pairs: &Any<'py>) -> Result<Any<'py>> {
     let pairs = pairs_of(pairs)?;
-    let columns = world.state.with(py, |state| {
+    let segments = world.state.with(py, |state| {
         let mut segments = pliant::Segments::new();
         with_world!(&state.world, world => segments.update(world, &pairs))?;
         Ok(SegmentColumns::of(&segments))
     })?;
-    Ok(columns.told(py)?)
+    Ok(segments_told(segments, py)?)
 }
 
 /// Finds the curves in which pairs of triangles meet: a Curves of arrays.
@@ -67,17 +67,11 @@ pub(crate) fn curves<'py>(
         let mut curves = pliant::Curves::new();
         with_world!(&state.world, world => {
             curves.update(world, &pairs)?;
-            let mut told = CurveColumns::of(&curves);
-            if areas {
-                for curve in curves.iter() {
-                    let areas = curve.enclosed_areas(world)?;
-                    told.areas.push(areas.map(|area| area.unwrap_or(f64::NAN)));
-                }
-            }
-            Ok(told)
+            let told = CurveColumns::of(&curves);
+            Ok(if areas { told.with_areas(&curves, world)? } else { told })
         })
     })?;
-    let segments = told.segments.told(py)?;
+    let segments = segments_told(told.segments, py)?;
     let areas = areas.then_some(Rows(told.areas));
     Ok(named!(py, "Curves":
         segments = segments,
@@ -97,90 +91,14 @@ fn pairs_of(rows: &Any<'_>) -> Result<Vec<Pair>> {
     Ok(rows.into_iter().map(<[u32; 4]>::into).collect())
 }
 
-/// Segments in vectors, one for each array.
-struct SegmentColumns {
-    offsets: Vec<u64>,
-    points: Vec<[f64; 3]>,
-    on: Vec<[u8; 2]>,
-    parameters: Vec<[f64; 2]>,
-    normals: Vec<[f64; 3]>,
-    flat: Vec<bool>,
+fn segments_told(segments: SegmentColumns, py: Python<'_>) -> PyResult<Any<'_>> {
+    let pairs = segments.flat.len();
+    let normals = segments.normals.into_flattened().into_pyarray(py);
+    named!(py, "Segments":
+        offsets = Column(segments.offsets),
+        points = Rows(segments.points),
+        on = Rows(segments.on),
+        parameters = Rows(segments.parameters),
+        normals = normals.reshape([pairs, 2, 3])?,
+        flat = Column(segments.flat))
 }
-
-impl SegmentColumns {
-    fn of(segments: &pliant::Segments) -> Self {
-        let mut offsets = vec![0];
-        let (mut normals, mut flat) = (Vec::new(), Vec::new());
-        for segment in segments.iter() {
-            offsets.push(offsets[offsets.len() - 1] + segment.ends.len() as u64);
-            normals.extend(segment.normals);
-            flat.push(segment.is_flat);
-        }
-        let ends = segments.ends().iter();
-        Self {
-            offsets,
-            points: ends.clone().map(|end| end.point).collect(),
-            on: ends.clone().map(|end| end.on.map(u8::from)).collect(),
-            parameters: ends
-                .map(|end| end.parameter.map(|t| t.unwrap_or(f64::NAN)))
-                .collect(),
-            normals,
-            flat,
-        }
-    }
-
-    fn told(self, py: Python<'_>) -> PyResult<Any<'_>> {
-        let pairs = self.flat.len();
-        let normals = self.normals.into_flattened().into_pyarray(py);
-        named!(py, "Segments":
-            offsets = Column(self.offsets),
-            points = Rows(self.points),
-            on = Rows(self.on),
-            parameters = Rows(self.parameters),
-            normals = normals.reshape([pairs, 2, 3])?,
-            flat = Column(self.flat))
-    }
-}
-
-/// Curves in vectors, one for each array.
-struct CurveColumns {
-    segments: SegmentColumns,
-    offsets: Vec<u64>,
-    steps: Vec<u64>,
-    reversed: Vec<bool>,
-    swapped: Vec<bool>,
-    length: Vec<f64>,
-    closed: Vec<bool>,
-    ends: Vec<[u8; 2]>,
-    areas: Vec<[f64; 2]>,
-    touching: Vec<u64>,
-}
-
-impl CurveColumns {
-    fn of(curves: &pliant::Curves) -> Self {
-        let mut offsets = vec![0];
-        for curve in curves.iter() {
-            offsets.push(offsets[offsets.len() - 1] + curve.steps().len() as u64);
-        }
-        let steps = || curves.iter().flat_map(|curve| curve.steps());
-        let ends = |curve: pliant::Curve<'_>| {
-            let ends = curve.ends();
-            ends.map_or([NO_END; 2], |ends| ends.map(|end| end as u8))
-        };
-        Self {
-            segments: SegmentColumns::of(curves.segments()),
-            offsets,
-            steps: steps().map(|step| step.segment as u64).collect(),
-            reversed: steps().map(|step| step.is_reversed).collect(),
-            swapped: steps().map(|step| step.is_swapped).collect(),
-            length: curves.iter().map(|curve| curve.length()).collect(),
-            closed: curves.iter().map(|curve| curve.is_closed()).collect(),
-            ends: curves.iter().map(ends).collect(),
-            areas: Vec::new(),
-            touching: curves.touching().iter().map(|&pair| pair as u64).collect(),
-        }
-    }
-}
-
-/// End of a closed curve, which has none.
-const NO_END: u8 = 255;

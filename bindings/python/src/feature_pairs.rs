@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::selection::Selection;
 use crate::signals::interruptible;
 use crate::world::World;
-use pliant::{ClosestFeatures, FeaturePair, Scalar};
+use pliant::{ClosestFeatures, FeaturePair};
 use pliant_check::with_world;
 use pyo3::prelude::*;
 
@@ -37,7 +37,11 @@ pub(crate) fn feature_pairs<'py>(
 ) -> Result<Any<'py>> {
     let contacts = world.state.with(py, |state| {
         interruptible(|question| {
-            with_world!(&mut state.world, world => found(world, (of.0, distance), question))
+            let mut contacts = pliant::FeaturePairs::new();
+            with_world!(&mut state.world, world => {
+                contacts.ask(world, (of.0, distance), Some(question))?;
+            });
+            Ok(Vec::from(contacts))
         })
         .map_err(|refused| refused.distance_is("distance"))
     })?;
@@ -51,20 +55,6 @@ pub(crate) fn feature_pairs<'py>(
         distance = Column::<f64>(column(|it| it.distance)),
         direction = Rows(contacts.iter().map(|it| it.direction.unwrap_or_default()).collect()),
         multiplicity = Column(contacts.iter().map(|it| it.multiplicity).collect::<Vec<u32>>()))?)
-}
-
-fn found<S: Scalar>(
-    world: &mut pliant::World<S>,
-    (of, distance): (pliant::Selection, f64),
-    question: &(dyn Fn() -> bool + Sync),
-) -> Result<Vec<FeaturePair>> {
-    let vertices = world.close_vertex_triangle_pairs(of, distance);
-    let vertices = vertices.interrupt_if(question).all()?.to_vec();
-    let edges = world.close_edge_edge_pairs(of, distance);
-    let edges = edges.interrupt_if(question).all()?.to_vec();
-    let mut contacts = pliant::FeaturePairs::new();
-    contacts.update(world, &vertices, &edges)?;
-    Ok(contacts.into())
 }
 
 /// Number of a kind, in the order of rows.

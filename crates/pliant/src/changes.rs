@@ -65,9 +65,9 @@ listed! {
 /// Two things of one hit as one number, in the order of lists. Of one kind, the lower comes first.
 type Key = u128;
 
-fn key<H: Listed>(things: [(BodyId, u32); 2]) -> Key {
+fn key(kinds: [Thing; 2], things: [(BodyId, u32); 2]) -> Key {
     let [mut a, mut b] = things.map(|(body, number)| u64::from(body.0) << 32 | u64::from(number));
-    if H::THINGS[0] == H::THINGS[1] && a > b {
+    if kinds[0] == kinds[1] && a > b {
         std::mem::swap(&mut a, &mut b);
     }
     Key::from(a) << 64 | Key::from(b)
@@ -103,8 +103,16 @@ fn things(key: Key) -> [(BodyId, u32); 2] {
 /// Memory: some 100 bytes a hit of the longest list.
 #[derive(Clone, Debug)]
 pub struct Changes<H> {
-    memory: Memory,
+    rows: RowChanges,
     kind: PhantomData<fn(&H)>,
+}
+
+/// [`Changes`] of rows, whose kinds of things are known when the program runs, for bindings.
+#[derive(Clone, Debug)]
+#[doc(hidden)]
+pub struct RowChanges {
+    kinds: [Thing; 2],
+    memory: Memory,
 }
 
 /// Memory of hits of any kind.
@@ -144,10 +152,10 @@ pub struct Ended {
     pub things: [(BodyId, u32); 2],
 }
 
-impl<H> Default for Changes<H> {
+impl<H: Listed> Default for Changes<H> {
     fn default() -> Self {
         Self {
-            memory: Memory::default(),
+            rows: RowChanges::new(H::THINGS),
             kind: PhantomData,
         }
     }
@@ -163,10 +171,7 @@ impl<H: Listed> Changes<H> {
     ///
     /// A hit that is listed twice is one. Cost: O(n) for sorted lists, some nanoseconds a hit.
     pub fn update(&mut self, list: &[H]) -> Changed<'_> {
-        let keys = list.iter().map(|hit| key::<H>(hit.things()));
-        self.memory.places.clear();
-        self.memory.places.extend(keys.zip(0..));
-        self.memory.compare()
+        self.rows.update(list.iter().map(Listed::things))
     }
 
     /// Notes an edit of a body between two lists: numbers that were removed or used again are other
@@ -175,50 +180,19 @@ impl<H: Listed> Changes<H> {
     /// Hits with these end, though another under the same numbers may begin. Numbers of edges are
     /// not in an [`Edited`]: see [`follow`](Self::follow). Cost: O(n log n) for n hits.
     pub fn edited(&mut self, body: BodyId, edited: &Edited) {
-        let is_other = |thing: Thing, number: u32| {
-            let lists = match thing {
-                Thing::Triangle => [&edited.new_triangles, &edited.removed_triangles],
-                Thing::Vertex => [&edited.new_vertices, &edited.removed_vertices],
-                Thing::Edge => return false,
-            };
-            lists.iter().any(|list| list.binary_search(&number).is_ok())
-        };
-        self.follow(|thing, of, number| {
-            (of != body || !is_other(thing, number)).then_some((of, number))
-        });
+        self.rows.edited(body, edited);
     }
 
     /// Notes that [`World::split`](crate::World::split) made pieces of a body. Numbers of edges are
     /// not in a [`Piece`]: hits with edges of these pieces end.
     pub fn split(&mut self, body: BodyId, pieces: &[Piece]) {
-        let triangles = new_numbers(pieces, |piece| &piece.triangles);
-        let vertices = new_numbers(pieces, |piece| &piece.vertices);
-        self.follow(|thing, of, number| {
-            let places = match thing {
-                Thing::Triangle => &triangles,
-                Thing::Vertex => &vertices,
-                Thing::Edge => return Some((of, number)),
-            };
-            let place = places.get(&number).filter(|_| of == body);
-            Some(place.copied().unwrap_or((of, number)))
-        });
+        self.rows.split(body, pieces);
     }
 
     /// Notes that [`World::fuse`](crate::World::fuse) put body `gone` into `kept`. Numbers of edges
     /// are not in a [`Fused`]: hits with edges of `gone` end.
     pub fn fused(&mut self, kept: BodyId, gone: BodyId, fused: &Fused) {
-        self.follow(|thing, of, number| {
-            if of != gone {
-                return Some((of, number));
-            }
-            let new = match thing {
-                Thing::Triangle => &fused.triangles,
-                Thing::Vertex => &fused.vertices,
-                Thing::Edge => return None,
-            };
-            let new = *new.get(number as usize)?;
-            (new != u32::MAX).then_some((kept, new))
-        });
+        self.rows.fused(kept, gone, fused);
     }
 
     /// Renames things between two lists: the numbers of a thing from now on, or none if it is
@@ -238,14 +212,93 @@ impl<H: Listed> Changes<H> {
     /// ```
     ///
     /// Cost: two calls for each hit of the last list.
+    pub fn follow(&mut self, new: impl FnMut(Thing, BodyId, u32) -> Option<(BodyId, u32)>) {
+        self.rows.follow(new);
+    }
+}
+
+impl RowChanges {
+    /// Memory of no hits.
+    pub fn new(kinds: [Thing; 2]) -> Self {
+        Self {
+            kinds,
+            memory: Memory::default(),
+        }
+    }
+
+    /// [`Changes::update`].
+    pub fn update(&mut self, list: impl Iterator<Item = [(BodyId, u32); 2]>) -> Changed<'_> {
+        let keys = list.map(|things| key(self.kinds, things));
+        self.memory.places.clear();
+        self.memory.places.extend(keys.zip(0..));
+        self.memory.compare()
+    }
+
+    /// [`Changes::edited`].
+    pub fn edited(&mut self, body: BodyId, edited: &Edited) {
+        let is_other = |thing: Thing, number: u32| {
+            let lists = match thing {
+                Thing::Triangle => [&edited.new_triangles, &edited.removed_triangles],
+                Thing::Vertex => [&edited.new_vertices, &edited.removed_vertices],
+                Thing::Edge => return false,
+            };
+            lists.iter().any(|list| list.binary_search(&number).is_ok())
+        };
+        self.follow(|thing, of, number| {
+            (of != body || !is_other(thing, number)).then_some((of, number))
+        });
+    }
+
+    /// Notes an edit by the ends of a body's edges before and after it: an edge is the same if its
+    /// number has the same two.
+    pub fn edges_edited(&mut self, body: BodyId, before: &[[u32; 2]], after: &[[u32; 2]]) {
+        self.follow(|thing, of, number| {
+            let ends = before.get(number as usize);
+            let is_same = ends.is_some() && ends == after.get(number as usize);
+            (thing != Thing::Edge || of != body || is_same).then_some((of, number))
+        });
+    }
+
+    /// [`Changes::split`].
+    pub fn split(&mut self, body: BodyId, pieces: &[Piece]) {
+        let triangles = new_numbers(pieces, |piece| &piece.triangles);
+        let vertices = new_numbers(pieces, |piece| &piece.vertices);
+        self.follow(|thing, of, number| {
+            let places = match thing {
+                Thing::Triangle => &triangles,
+                Thing::Vertex => &vertices,
+                Thing::Edge => return Some((of, number)),
+            };
+            let place = places.get(&number).filter(|_| of == body);
+            Some(place.copied().unwrap_or((of, number)))
+        });
+    }
+
+    /// [`Changes::fused`].
+    pub fn fused(&mut self, kept: BodyId, gone: BodyId, fused: &Fused) {
+        self.follow(|thing, of, number| {
+            if of != gone {
+                return Some((of, number));
+            }
+            let new = match thing {
+                Thing::Triangle => &fused.triangles,
+                Thing::Vertex => &fused.vertices,
+                Thing::Edge => return None,
+            };
+            let new = *new.get(number as usize)?;
+            (new != u32::MAX).then_some((kept, new))
+        });
+    }
+
+    /// [`Changes::follow`].
     pub fn follow(&mut self, mut new: impl FnMut(Thing, BodyId, u32) -> Option<(BodyId, u32)>) {
         let Memory { before, gone, .. } = &mut self.memory;
         before.retain_mut(|(known, number)| {
             let [a, b] = things(*known);
-            let [kind_a, kind_b] = H::THINGS;
+            let [kind_a, kind_b] = self.kinds;
             let both = new(kind_a, a.0, a.1).zip(new(kind_b, b.0, b.1));
             match both {
-                Some((a, b)) => *known = key::<H>([a, b]),
+                Some((a, b)) => *known = key(self.kinds, [a, b]),
                 None => gone.push(Ended {
                     number: *number,
                     things: things(*known),

@@ -10,6 +10,8 @@ use crate::ids::BodyId;
 use crate::queries::{
     CloseEdgeEdge, CloseVertexTriangle, ClosestFeatures, EdgeEdge, VertexTriangle,
 };
+use crate::selection::Selection;
+use crate::threads::Question;
 use crate::world::{NamedBodies, Scalar, World};
 use pliant_exact::Feature;
 use pliant_exact::distance::{Primitives, closest_features};
@@ -154,6 +156,25 @@ impl FeaturePairs {
             });
         }
         Ok(())
+    }
+
+    /// Finds the contacts of all elements at most `distance` apart, for bindings.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`Query`](crate::Query).
+    #[doc(hidden)]
+    pub fn ask<S: Scalar>(
+        &mut self,
+        world: &mut World<S>,
+        (of, distance): (Selection, f64),
+        question: Option<Question>,
+    ) -> Result<(), Error> {
+        let vertices = world.close_vertex_triangle_pairs(of, distance);
+        let vertices = vertices.interrupt(question).all()?.to_vec();
+        let edges = world.close_edge_edge_pairs(of, distance);
+        let edges = edges.interrupt(question).all()?.to_vec();
+        self.update(world, &vertices, &edges)
     }
 
     /// All contacts, sorted.

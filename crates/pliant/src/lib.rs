@@ -89,8 +89,8 @@
 //! - **How trees are built and updated**: [`Options`], [`Degree`], [`Partition`], [`Update`]. How
 //!   they look: [`World::tree_shape`], [`tree_cut`](World::tree_cut),
 //!   [`vertex_order`](World::vertex_order).
-//! - **Threads**: [`Options::threads`], [`Options::all_threads`], or a pool of your own with
-//!   [`World::with_pool`].
+//! - **Threads**: [`Options::threads`], [`Options::all_threads`], a pool of your own with
+//!   [`World::with_pool`], or a [`Scheduler`] with [`World::with_scheduler`].
 //! - **Single or double precision**: [`Scalar`].
 //! - **Exact decisions on single points and triangles**: [`exact`].
 //! - **Answers without any tree, to compare with**: [`reference`](mod@reference).
@@ -140,8 +140,12 @@ mod update;
 mod world;
 
 pub use bodies::{NodeBox, TreeShape};
+#[doc(hidden)]
+pub use changes::RowChanges;
 pub use changes::{Changed, Changes, Ended, Listed, Thing};
 pub use curves::{Curve, CurveEnd, Curves, Segment, Segments, Step};
+#[doc(hidden)]
+pub use curves::{CurveColumns, SegmentColumns};
 pub use edit::{Edit, Edited};
 pub use error::{Error, ErrorKind};
 pub use feature_pairs::{FeaturePair, FeaturePairs};
@@ -161,6 +165,7 @@ pub use pliant_exact::{End, Feature};
 pub use queries::hits::*;
 pub use selection::Selection;
 pub use statistics::Statistics;
+pub use threads::Scheduler;
 #[doc(hidden)]
 pub use threads::{Clock, RecordedPart};
 pub use world::{FreeStep, Fused, InContact, Interruptible, Piece, Query, Scalar, World};

@@ -6,8 +6,10 @@
 //! Only positions, lengths and areas are rounded.
 
 mod area;
+mod columns;
 mod linking;
 mod segments;
 
+pub use columns::{CurveColumns, SegmentColumns};
 pub use linking::{Curve, CurveEnd, Curves, Step};
 pub use segments::{Segment, Segments};

@@ -20,7 +20,8 @@ pub(crate) use grain::Grain;
 use grain::threads_for;
 pub(crate) use interrupt::{Interrupt, Question};
 pub(crate) use per_thread::PerThread;
-use pool::Helpers;
+pub use pool::Scheduler;
+use pool::{Helpers, Workers};
 use record::Recorder;
 pub use record::{Clock, RecordedPart};
 use std::num::NonZeroUsize;
@@ -41,7 +42,10 @@ pub(crate) struct Threads {
 impl Threads {
     /// The calling thread alone.
     pub(crate) const fn one() -> Self {
-        Self::of(None)
+        Self {
+            helpers: None,
+            recorder: None,
+        }
     }
 
     /// Makes a private pool of `count` threads in all, the calling one included, but at most
@@ -55,19 +59,27 @@ impl Threads {
                 .build()
         });
         let pool = pool.and_then(Result::ok);
-        let helpers = pool.map(|pool| Helpers::of(Arc::new(pool), count, Some(Arc::default())));
-        Self::of(helpers)
+        let workers = pool.map(|pool| Workers::Private(Arc::new(pool), Arc::default()));
+        Self::of(workers, count)
     }
 
     /// Uses a pool of the caller's: at most `count` threads in all, the calling one included.
     pub(crate) fn lent(count: NonZeroUsize, pool: Arc<rayon::ThreadPool>) -> Self {
         let count = (count.get().min(MOST) - 1).min(pool.current_num_threads());
-        Self::of((count > 0).then(|| Helpers::of(pool, count, None)))
+        Self::of(Some(Workers::Lent(pool)), count)
     }
 
-    const fn of(helpers: Option<Helpers>) -> Self {
+    /// Uses a scheduler of the caller's: at most `count` tasks at a time.
+    pub(crate) fn scheduled(count: NonZeroUsize, scheduler: Arc<dyn Scheduler>) -> Self {
+        let count = count.get().min(MOST) - 1;
+        Self::of(Some(Workers::Scheduled(scheduler)), count)
+    }
+
+    /// `count` helpers beside the calling thread, if there are workers.
+    fn of(workers: Option<Workers>, count: usize) -> Self {
+        let workers = workers.filter(|_| count > 0);
         Self {
-            helpers,
+            helpers: workers.map(|workers| Helpers::of(workers, count)),
             recorder: None,
         }
     }
@@ -85,12 +97,12 @@ impl Threads {
         self.recorder.as_ref().map_or_else(Vec::new, Recorder::take)
     }
 
-    /// Threads for another world: of the same pool if that was lent, otherwise private.
+    /// Threads for another world: private, unless those of this one are the application's.
     pub(crate) fn another(&self, count: NonZeroUsize) -> Self {
-        let lent = self.helpers.as_ref().filter(|it| it.awake.is_none());
-        match lent {
-            Some(helpers) => Self::lent(count, Arc::clone(&helpers.pool)),
-            None => Self::private(count),
+        match self.helpers.as_ref().map(|helpers| &helpers.workers) {
+            Some(Workers::Lent(pool)) => Self::lent(count, Arc::clone(pool)),
+            Some(Workers::Scheduled(it)) => Self::scheduled(count, Arc::clone(it)),
+            Some(Workers::Private(..)) | None => Self::private(count),
         }
     }
 
@@ -104,13 +116,13 @@ impl Threads {
         self
     }
 
-    /// Threads for the child of a fork. Private threads are made anew. The state of a pool that was
-    /// lent is unknown there, so the calling thread does all work.
+    /// Threads for the child of a fork. Private threads are made anew. The state of a pool or
+    /// scheduler of the application is unknown there, so the calling thread does all work.
     #[cold]
     fn after_fork(helpers: &Helpers) -> Self {
-        match helpers.awake {
-            Some(_) => Self::private(NonZeroUsize::MIN.saturating_add(helpers.count)),
-            None => Self::one(),
+        match helpers.workers {
+            Workers::Private(..) => Self::private(NonZeroUsize::MIN.saturating_add(helpers.count)),
+            Workers::Lent(_) | Workers::Scheduled(_) => Self::one(),
         }
     }
 }
@@ -322,6 +334,7 @@ mod tests {
                 assert!(jobs.iter().copied().eq(1..=count));
             }
         };
+        let scheduled = |count, of| Threads::scheduled(NonZeroUsize::new(count).unwrap(), of);
         for threads in [
             threads(1),
             threads(2),
@@ -329,10 +342,26 @@ mod tests {
             lent(1),
             lent(2),
             lent(9),
+            scheduled(1, Arc::new(Some(1))),
+            scheduled(4, Arc::new(Some(1))),
+            scheduled(4, Arc::new(Some(2))),
+            scheduled(4, Arc::new(None)),
         ] {
             check(&threads);
             // From a thread of the pool itself.
             pool.install(|| check(&threads));
+        }
+    }
+
+    /// Runs every so many of the tasks, from the last, each on a thread of its own; or none.
+    impl Scheduler for Option<usize> {
+        fn run(&self, tasks: usize, task: &(dyn Fn(usize) + Sync)) {
+            let Some(step) = *self else { return };
+            std::thread::scope(|scope| {
+                for number in (0..tasks).rev().step_by(step) {
+                    scope.spawn(move || task(number));
+                }
+            });
         }
     }
 
@@ -346,8 +375,11 @@ mod tests {
                 .build()
                 .unwrap(),
         );
-        let lent = Threads::lent(NonZeroUsize::new(4).unwrap(), Arc::clone(&pool));
-        for (mut threads, many) in [(threads(4), true), (lent, false), (threads(1), false)] {
+        let four = NonZeroUsize::new(4).unwrap();
+        let lent = Threads::lent(four, Arc::clone(&pool));
+        let scheduled = Threads::scheduled(four, Arc::new(Some(1)));
+        let all = [(threads(4), true), (lent, false), (scheduled, false)];
+        for (mut threads, many) in all.into_iter().chain([(threads(1), false)]) {
             if let Some(helpers) = &mut threads.helpers {
                 helpers.process = helpers.process.wrapping_add(1);
             }

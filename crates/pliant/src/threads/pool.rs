@@ -3,10 +3,11 @@
 //! A step has some dozens of parts, each shorter than waking a thread takes. So threads of a
 //! private pool stay awake for a while after a part and look for more work. Only as many are woken
 //! as the part pays for. Each begins with adjacent jobs, then steals from the back of others' jobs;
-//! so it mostly reads what it wrote in the part before. Threads of a pool that an application has
-//! lent are not kept awake.
+//! so it mostly reads what it wrote in the part before. Threads of an application's pool or
+//! scheduler are not kept awake.
 
 use super::lock::locked;
+use std::fmt;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
@@ -17,16 +18,44 @@ pub(super) const AWAKE: Duration = Duration::from_micros(200);
 /// Checks of a waiting thread before it yields its core between checks.
 const LOOKS: u32 = 100;
 
-/// Helper threads of a pool, beside the calling thread.
-#[derive(Debug)]
+/// Scheduler of an application that runs tasks on threads of its own, as those of TBB and OpenMP
+/// do.
+///
+/// For [`World::with_scheduler`](crate::World::with_scheduler).
+pub trait Scheduler: Send + Sync {
+    /// Runs `task` for every number below `tasks`, and returns when all have ended.
+    ///
+    /// Any thread may run any of them, side by side or one after the other. The calling thread does
+    /// what is left undone.
+    fn run(&self, tasks: usize, task: &(dyn Fn(usize) + Sync));
+}
+
+/// Whose threads the helpers are.
+#[derive(Clone)]
+pub(super) enum Workers {
+    /// Threads of this world alone, and how many of them are awake.
+    Private(Arc<rayon::ThreadPool>, Arc<AtomicUsize>),
+    /// Threads of a pool that the application has lent.
+    Lent(Arc<rayon::ThreadPool>),
+    /// Threads that a scheduler of the application has.
+    Scheduled(Arc<dyn Scheduler>),
+}
+
+/// Helper threads, beside the calling thread.
 pub(super) struct Helpers {
-    pub(super) pool: Arc<rayon::ThreadPool>,
-    /// Most threads of the pool that are used.
+    pub(super) workers: Workers,
+    /// Most threads that are used.
     pub(super) count: usize,
-    /// Number of threads of a private pool that are awake; none for a pool that was lent.
-    pub(super) awake: Option<Arc<AtomicUsize>>,
-    /// Process that has the threads: the child of a fork has the pool, but none of its threads.
+    /// Process that has the threads: the child of a fork has none of them.
     pub(super) process: u32,
+}
+
+impl fmt::Debug for Helpers {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Helpers")
+            .field("count", &self.count)
+            .finish_non_exhaustive()
+    }
 }
 
 impl Drop for Helpers {
@@ -34,21 +63,16 @@ impl Drop for Helpers {
         if self.are_elsewhere() {
             // Nobody will unlock what a thread of the parent had locked at the fork. So the pool is
             // leaked.
-            std::mem::forget(Arc::clone(&self.pool));
+            std::mem::forget(self.workers.clone());
         }
     }
 }
 
 impl Helpers {
-    pub(super) fn of(
-        pool: Arc<rayon::ThreadPool>,
-        count: usize,
-        awake: Option<Arc<AtomicUsize>>,
-    ) -> Self {
+    pub(super) fn of(workers: Workers, count: usize) -> Self {
         Self {
-            pool,
+            workers,
             count,
-            awake,
             process: std::process::id(),
         }
     }
@@ -75,48 +99,56 @@ impl Helpers {
                 })
             })
             .collect();
-        self.help(shares.len() - 1, &|own| {
-            do_all(&shares, own % shares.len(), work);
-        });
-    }
-
-    /// Runs `work` on `helpers` helpers and on the calling thread. It gets the number of its
-    /// thread, which is 0 for the calling one. It is generic over no type of job, since scopes of a
-    /// pool are slow to compile.
-    fn help(&self, helpers: usize, work: &(dyn Fn(usize) + Sync)) {
-        self.wake(helpers);
-        let done = AtomicUsize::new(0);
-        self.pool.in_place_scope(|scope| {
-            for _ in 0..helpers {
-                scope.spawn(|_| {
-                    work(rayon::current_thread_index().map_or(0, |thread| thread + 1));
-                    done.fetch_add(1, Ordering::Release);
-                });
+        let work_from = |own: usize| do_all(&shares, own % shares.len(), work);
+        match &self.workers {
+            Workers::Private(pool, awake) => {
+                wake(pool, awake, shares.len() - 1);
+                help(pool, shares.len() - 1, &work_from);
             }
-            work(0);
-            // The end of the scope would put this thread to sleep at once.
-            let mut backoff = Backoff::default();
-            while done.load(Ordering::Acquire) < helpers && backoff.waits() {}
-        });
+            Workers::Lent(pool) => help(pool, shares.len() - 1, &work_from),
+            Workers::Scheduled(scheduler) => {
+                scheduler.run(shares.len(), &work_from);
+                // Whatever the scheduler has left out.
+                work_from(0);
+            }
+        }
     }
+}
 
-    /// Wakes threads of a private pool until `helpers` of them look for work.
-    fn wake(&self, helpers: usize) {
-        let Some(awake) = &self.awake else { return };
-        let are = awake.load(Ordering::Acquire);
-        for _ in are..helpers {
-            awake.fetch_add(1, Ordering::Release);
-            let awake = Arc::clone(awake);
-            self.pool.spawn(move || {
-                let mut backoff = Backoff::default();
-                while backoff.waits() {
-                    if rayon::yield_now() == Some(rayon::Yield::Executed) {
-                        backoff = Backoff::default();
-                    }
-                }
-                awake.fetch_sub(1, Ordering::Release);
+/// Runs `work` on `helpers` threads of a pool and on the calling thread. It gets the number of its
+/// thread, which is 0 for the calling one. It is generic over no type of job, since scopes of a
+/// pool are slow to compile.
+fn help(pool: &rayon::ThreadPool, helpers: usize, work: &(dyn Fn(usize) + Sync)) {
+    let done = AtomicUsize::new(0);
+    pool.in_place_scope(|scope| {
+        for _ in 0..helpers {
+            scope.spawn(|_| {
+                work(rayon::current_thread_index().map_or(0, |thread| thread + 1));
+                done.fetch_add(1, Ordering::Release);
             });
         }
+        work(0);
+        // The end of the scope would put this thread to sleep at once.
+        let mut backoff = Backoff::default();
+        while done.load(Ordering::Acquire) < helpers && backoff.waits() {}
+    });
+}
+
+/// Wakes threads of a private pool until `helpers` of them look for work.
+fn wake(pool: &rayon::ThreadPool, awake: &Arc<AtomicUsize>, helpers: usize) {
+    let are = awake.load(Ordering::Acquire);
+    for _ in are..helpers {
+        awake.fetch_add(1, Ordering::Release);
+        let awake = Arc::clone(awake);
+        pool.spawn(move || {
+            let mut backoff = Backoff::default();
+            while backoff.waits() {
+                if rayon::yield_now() == Some(rayon::Yield::Executed) {
+                    backoff = Backoff::default();
+                }
+            }
+            awake.fetch_sub(1, Ordering::Release);
+        });
     }
 }
 

@@ -4,7 +4,7 @@ use super::scalar::Scalar;
 use super::state::State;
 use super::verbs::Verbs;
 use crate::options::Options;
-use crate::threads::Threads;
+use crate::threads::{Scheduler, Threads};
 use std::fmt;
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ use std::sync::Arc;
 /// Methods are listed in the order in which one meets them:
 ///
 /// - **New**: [`new`](Self::new), [`with_options`](Self::with_options),
-///   [`with_pool`](Self::with_pool);
+///   [`with_pool`](Self::with_pool), [`with_scheduler`](Self::with_scheduler);
 /// - **Bodies**: [`add`](Self::add), [`set_positions`](Self::set_positions),
 ///   [`remove`](Self::remove);
 /// - **Questions**, from [`intersections`](Self::intersections) to [`clearance`](Self::clearance);
@@ -45,7 +45,8 @@ pub struct World<S: Scalar> {
 /// Copies bodies, shapes, trees, filters, ignored pairs, loose boxes and options.
 ///
 /// Ids stay, and ids of removed bodies are not used again. Boxes are made anew, and counters begin
-/// at zero. A pool that was lent is shared; threads of the world's own are made anew.
+/// at zero. A pool or scheduler of the application is shared; threads of the world's own are
+/// made anew.
 ///
 /// Cost: O(n + m) for all bodies; no tree is built.
 ///
@@ -106,6 +107,38 @@ impl<S: Scalar> World<S> {
     /// ```
     pub fn with_pool(options: Options, pool: Arc<rayon::ThreadPool>) -> Self {
         let threads = Threads::lent(options.threads, pool);
+        Self {
+            verbs: S::state(options, threads),
+        }
+    }
+
+    /// Makes an empty world whose queries share the threads of a scheduler that the application has
+    /// anyway: TBB, OpenMP, or its own.
+    ///
+    /// No other threads are made. At most [`Options::threads`] tasks are given to it at a time. As
+    /// with a pool, a thread that waits there may begin other work of the application.
+    ///
+    /// ```
+    /// use pliant::{Options, Scheduler, World};
+    /// use std::sync::Arc;
+    ///
+    /// struct Own;
+    ///
+    /// impl Scheduler for Own {
+    ///     fn run(&self, tasks: usize, task: &(dyn Fn(usize) + Sync)) {
+    ///         std::thread::scope(|scope| {
+    ///             for number in 0..tasks {
+    ///                 scope.spawn(move || task(number));
+    ///             }
+    ///         });
+    ///     }
+    /// }
+    ///
+    /// let world = World::<f32>::with_scheduler(Options::all_threads(), Arc::new(Own));
+    /// # drop(world);
+    /// ```
+    pub fn with_scheduler(options: Options, scheduler: Arc<dyn Scheduler>) -> Self {
+        let threads = Threads::scheduled(options.threads, scheduler);
         Self {
             verbs: S::state(options, threads),
         }

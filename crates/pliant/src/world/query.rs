@@ -93,7 +93,7 @@ impl<'w, H: Copy> Query<'w, H> {
     }
 
     /// Ends the query early as [`interrupt_if`](Self::interrupt_if), if there is a question.
-    pub(super) fn interrupt(mut self, question: Option<Question<'w>>) -> Self {
+    pub(crate) fn interrupt(mut self, question: Option<Question<'w>>) -> Self {
         self.request.question = question;
         self
     }

@@ -1,6 +1,7 @@
 /* pliant.hpp: pliant.h as classes. Header only, C++17.
 
    A refused call throws pliant::Error, which has the facts of pliant_error; the world is as it was.
+   With PLIANT_NO_EXCEPTIONS it ends the program with the message; call pliant.h for statuses.
    Arrays are taken from anything that has data() and size(), or rows() and cols(): std::vector of
    std::array<double, 3>, Eigen::MatrixXd, Eigen::Ref, Eigen::Map. Eigen is not included. */
 #ifndef PLIANT_HPP
@@ -11,9 +12,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -47,9 +52,33 @@ private:
 
 namespace detail {
 
+[[noreturn]] inline void refuse(const pliant_error &error) {
+#ifdef PLIANT_NO_EXCEPTIONS
+    std::fprintf(stderr, "pliant: %s\n", error.message);
+    std::abort();
+#else
+    throw Error(error);
+#endif
+}
+
 inline void check(pliant_status status, const pliant_error &error) {
     if (status != PLIANT_OK) {
-        throw Error(error);
+        refuse(error);
+    }
+}
+
+/* Arrays whose lengths do not fit each other. */
+inline void check_lengths(std::size_t first, std::size_t second) {
+    if (first != second) {
+        pliant_error error{};
+        error.status = PLIANT_DIFFERENT_COUNTS;
+        error.body = error.triangle = error.vertex = UINT32_MAX;
+        error.pair = UINT64_MAX;
+        error.limit = first;
+        error.count = second;
+        std::snprintf(error.message, sizeof error.message, "%zu rows beside %zu; give as many",
+                      second, first);
+        refuse(error);
     }
 }
 
@@ -76,8 +105,8 @@ template <class A> auto rows_of(const A &array) {
     if constexpr (has_rows<A>::value) {
         using S = std::remove_cv_t<std::remove_reference_t<decltype(*array.data())>>;
         const std::ptrdiff_t size = sizeof(S);
-        if (array.cols() != 3 && array.rows() != 0) {
-            throw std::invalid_argument("an array of rows has not 3 columns");
+        if (array.rows() != 0) {
+            check_lengths(3, static_cast<std::size_t>(array.cols()));
         }
         return Rows<S>{array.data(), static_cast<std::size_t>(array.rows()),
                        array.rowStride() * size, array.colStride() * size};
@@ -120,14 +149,107 @@ constexpr pliant_selection within(std::uint32_t body) { return {PLIANT_WITHIN, b
 /* How a question is asked: whom, how much, and what ends it. */
 struct Query {
     pliant_selection of = everything;
-    bool first = false;
-    bool unsorted = false;
+    std::uint8_t how = PLIANT_ALL;
     std::uint64_t at_most = 0;                       /* 0: any number */
     std::function<bool(const pliant_hits &)> visit;  /* true ends the question */
     std::function<bool()> interrupt;                 /* any thread may call it */
 
     Query() = default;
-    Query(pliant_selection selection) : of(selection) {}
+    Query(pliant_selection selection, std::uint8_t wanted = PLIANT_ALL)
+        : of(selection), how(wanted) {}
+};
+
+/* A scheduler of the application: calls task(number) for every number below tasks, as
+   pliant_parallel_for says. With TBB: tbb::parallel_for(std::size_t(0), tasks, task). */
+using ParallelFor =
+    std::function<void(std::size_t tasks, const std::function<void(std::size_t)> &task)>;
+
+/* Threads that several worlds share. */
+class Pool {
+public:
+    explicit Pool(std::uint32_t threads) {
+        pliant_pool *made = nullptr;
+        pliant_error error;
+        detail::check(pliant_pool_new(threads, &made, &error), error);
+        pool_.reset(made);
+    }
+
+    /* For pliant_options. */
+    pliant_pool *get() const { return pool_.get(); }
+
+private:
+    struct Free {
+        void operator()(pliant_pool *pool) const { pliant_pool_free(pool); }
+    };
+    std::unique_ptr<pliant_pool, Free> pool_;
+};
+
+/* An edit of a world, from World::edit. */
+class Edit {
+public:
+    explicit Edit(pliant_edit *begun) : edit_(begun) {}
+
+    /* The edit, for functions of pliant.h. */
+    pliant_edit *get() const { return edit_.get(); }
+
+    std::uint32_t body() const {
+        std::uint32_t body = 0;
+        call(pliant_edit_counts, &body, nullptr, nullptr);
+        return body;
+    }
+    std::size_t triangle_count() const {
+        std::size_t count = 0;
+        call(pliant_edit_counts, nullptr, &count, nullptr);
+        return count;
+    }
+    std::size_t vertex_count() const {
+        std::size_t count = 0;
+        call(pliant_edit_counts, nullptr, nullptr, &count);
+        return count;
+    }
+
+    /* Numbers of the first of what is new. */
+    template <class P> std::uint32_t add_vertices(const P &positions) {
+        std::uint32_t first = 0;
+        call(pliant_edit_add_vertices, points(positions), &first);
+        return first;
+    }
+    template <class F> std::uint32_t add_triangles(const F &triangles) {
+        std::uint32_t first = 0;
+        call(pliant_edit_add_triangles, faces(triangles), &first);
+        return first;
+    }
+    template <class S> void place_vertex(std::uint32_t vertex, const std::array<S, 3> &point) {
+        const pliant_points at{point.data(), 1, 0, 0, detail::scalar<S>()};
+        call(pliant_edit_place_vertex, vertex, at);
+    }
+    template <class A> std::uint32_t split_vertex(std::uint32_t vertex, const A &triangles) {
+        std::uint32_t made = 0;
+        call(pliant_edit_split_vertex, vertex, triangles.data(), std::size_t(triangles.size()),
+             &made);
+        return made;
+    }
+    void merge_vertices(std::uint32_t kept, std::uint32_t gone) {
+        call(pliant_edit_merge_vertices, kept, gone);
+    }
+    void set_triangle(std::uint32_t triangle, const std::array<std::uint32_t, 3> &corners) {
+        call(pliant_edit_set_triangle, triangle, corners.data());
+    }
+    template <class A> void remove_triangles(const A &triangles) {
+        call(pliant_edit_remove_triangles, triangles.data(), std::size_t(triangles.size()));
+    }
+
+private:
+    struct Free {
+        void operator()(pliant_edit *edit) const { pliant_edit_free(edit); }
+    };
+
+    template <class F, class... Arguments> void call(F function, Arguments... arguments) const {
+        pliant_error error;
+        detail::check(function(get(), arguments..., &error), error);
+    }
+
+    std::unique_ptr<pliant_edit, Free> edit_;
 };
 
 /* pliant_options_default. */
@@ -140,7 +262,13 @@ inline pliant_options default_options() {
 /* A world; it moves, and is copied by clone(). Hits are views, as pliant.h says. */
 class World {
 public:
-    explicit World(const pliant_options &options = default_options()) {
+    /* A scheduler, if one is given, takes at most options.threads tasks at a time. */
+    explicit World(pliant_options options = default_options(), ParallelFor scheduler = nullptr) {
+        if (scheduler) {
+            scheduler_ = std::make_shared<ParallelFor>(std::move(scheduler));
+            options.parallel_for = schedule;
+            options.parallel_user = scheduler_.get();
+        }
         pliant_world *made = nullptr;
         pliant_error error;
         detail::check(pliant_world_new(&options, &made, &error), error);
@@ -151,7 +279,7 @@ public:
         pliant_world *copy = nullptr;
         pliant_error error;
         detail::check(pliant_world_clone(get(), &copy, &error), error);
-        return World(copy);
+        return World(copy, scheduler_);
     }
 
     /* The world, for functions of pliant.h. */
@@ -171,6 +299,12 @@ public:
     template <class P> void set_positions(std::uint32_t body, const P &positions) {
         call(pliant_world_set_positions, body, points(positions));
     }
+    /* Shapes of several bodies, all or none: rows of pliant::points. */
+    void set_positions_of(const std::vector<std::uint32_t> &bodies,
+                          const std::vector<pliant_points> &positions) {
+        detail::check_lengths(bodies.size(), positions.size());
+        call(pliant_world_set_positions_of, bodies.data(), positions.data(), bodies.size());
+    }
     template <class P> void set_motion(std::uint32_t body, const P &end) {
         call(pliant_world_set_motion, body, points(end));
     }
@@ -178,29 +312,16 @@ public:
         const pliant_points rest = points(positions);
         call(pliant_world_set_rest_positions, body, &rest);
     }
-    void advance_motion(double t) { call(pliant_world_advance_motion, t); }
-
-    std::size_t triangle_count(std::uint32_t body) const { return counts(body).first; }
-    std::size_t vertex_count(std::uint32_t body) const { return counts(body).second; }
-
-    /* Positions, a copy, in double precision. */
-    std::vector<std::array<double, 3>> positions(std::uint32_t body) const {
-        std::vector<std::array<double, 3>> all(vertex_count(body));
-        call(pliant_world_positions, body, all.data()->data(), all.size());
-        return all;
+    void set_rest_positions(std::uint32_t body, std::nullptr_t) {
+        call(pliant_world_set_rest_positions, body, nullptr);
     }
+    void advance_motion(double t) { call(pliant_world_advance_motion, t); }
+    void finish_motion() { call(pliant_world_finish_motion); }
+    void rebuild(std::uint32_t body) { call(pliant_world_rebuild, body); }
 
     /* Edges, rows of two vertices as std::array<std::uint32_t, 2>, in the caller's order. */
     template <class A> void set_edges(std::uint32_t body, const A &edges) {
         call(pliant_world_set_edges, body, edges.data()->data(), std::size_t(edges.size()));
-    }
-
-    /* Edges in the order of their numbers, two vertices each. */
-    View<std::uint32_t> edges(std::uint32_t body) const {
-        const std::uint32_t *data = nullptr;
-        std::size_t count = 0;
-        call(pliant_world_edges, body, &data, &count);
-        return {data, 2 * count};
     }
 
     void set_filter(std::uint32_t body, std::uint32_t membership, std::uint32_t mask) {
@@ -210,6 +331,7 @@ public:
         call(pliant_world_set_environment, body, environment);
     }
     void ignore(std::uint32_t a, std::uint32_t b) { call(pliant_world_ignore, a, b); }
+    void unignore(std::uint32_t a, std::uint32_t b) { call(pliant_world_unignore, a, b); }
     template <class A> void set_vertex_groups(std::uint32_t body, const A &groups) {
         call(pliant_world_set_vertex_groups, body, groups.data(), std::size_t(groups.size()));
     }
@@ -217,11 +339,59 @@ public:
         call(pliant_world_set_vertex_thickness, body, thickness.data(),
              std::size_t(thickness.size()));
     }
-    template <class A> void set_labels(std::uint32_t body, const A &labels) {
-        call(pliant_world_set_labels, body, labels.data(), std::size_t(labels.size()), nullptr,
-             std::size_t(0));
+    void set_thickness(std::uint32_t body, double thickness) {
+        call(pliant_world_set_thickness, body, thickness);
+    }
+    /* Without neighbours these are labels with a vertex in common. */
+    template <class A>
+    void set_labels(std::uint32_t body, const A &labels,
+                    const std::vector<std::array<std::uint32_t, 2>> *neighbours = nullptr) {
+        /* An empty list is a list, though its address may be NULL. */
+        const std::uint32_t none[2] = {0, 0};
+        const std::uint32_t *rows = nullptr;
+        std::size_t count = 0;
+        if (neighbours) {
+            count = neighbours->size();
+            rows = count ? neighbours->data()->data() : none;
+        }
+        call(pliant_world_set_labels, body, labels.data(), std::size_t(labels.size()), rows, count);
+    }
+    void set_labels(std::uint32_t body, std::nullptr_t) {
+        call(pliant_world_set_labels, body, nullptr, std::size_t(0), nullptr, std::size_t(0));
+    }
+    /* Lower and upper corner. */
+    void set_loose_box(std::uint32_t body, const std::array<double, 6> &corners) {
+        call(pliant_world_set_loose_box, body, corners.data());
+    }
+    void set_loose_box(std::uint32_t body, std::nullptr_t) {
+        call(pliant_world_set_loose_box, body, nullptr);
     }
 
+    /* Changes of meshes. Lists are valid until the next of these. */
+    Edit edit(std::uint32_t body) const {
+        pliant_edit *begun = nullptr;
+        call(pliant_world_edit, body, &begun);
+        return Edit(begun);
+    }
+    pliant_edited apply(const Edit &edit) {
+        return told<pliant_edited>(pliant_world_apply, edit.get());
+    }
+    pliant_edited weld(std::uint32_t body, double tolerance, const Query &query = {}) {
+        return told_unless<pliant_edited>(query, [&](auto *plain, auto *edited, auto *error) {
+            return pliant_world_weld(get(), body, tolerance, plain, edited, error);
+        });
+    }
+    View<pliant_piece> split(std::uint32_t body) {
+        const pliant_piece *pieces = nullptr;
+        std::size_t count = 0;
+        call(pliant_world_split, body, &pieces, &count);
+        return {pieces, count};
+    }
+    pliant_fused fuse(std::uint32_t a, std::uint32_t b) {
+        return told<pliant_fused>(pliant_world_fuse, a, b);
+    }
+
+    /* Questions with a list. */
     pliant_hits intersections(const Query &query = {}) {
         return ask(query, pliant_world_intersections);
     }
@@ -256,18 +426,165 @@ public:
     pliant_hits edge_edge_impacts(const Query &query = {}, double width = 1e-6) {
         return ask(query, pliant_world_edge_edge_impacts, width);
     }
-    double collision_free_step(pliant_selection of = everything, double min_distance = 0.0) {
-        double step = 0.0;
-        call(pliant_world_collision_free_step, of, min_distance, &step);
-        return step;
+
+    /* Questions with one answer. */
+    pliant_hits distance(std::uint32_t a, std::uint32_t b, double cut_off,
+                         const Query &query = {}) {
+        return told_unless<pliant_hits>(query, [&](auto *plain, auto *hits, auto *error) {
+            return pliant_world_distance(get(), a, b, cut_off, plain, hits, error);
+        });
     }
+    pliant_hits nearest_body(std::uint32_t body, double cut_off, const Query &query = {}) {
+        return told_unless<pliant_hits>(query, [&](auto *plain, auto *hits, auto *error) {
+            return pliant_world_nearest_body(get(), body, cut_off, plain, hits, error);
+        });
+    }
+    pliant_hits first_impact(const Query &query = {}, double width = 1e-6) {
+        return told_unless<pliant_hits>(query, [&](auto *plain, auto *hits, auto *error) {
+            return pliant_world_first_impact(get(), plain, width, hits, error);
+        });
+    }
+    double collision_free_step(const Query &query = {}, double min_distance = 0.0) {
+        return told_unless<double>(query, [&](auto *plain, auto *step, auto *error) {
+            return pliant_world_collision_free_step(get(), plain, min_distance, step, error);
+        });
+    }
+    pliant_free_step free_step(const Query &query = {}, double min_distance = 0.0) {
+        return told_unless<pliant_free_step>(query, [&](auto *plain, auto *step, auto *error) {
+            return pliant_world_free_step(get(), plain, min_distance, step, error);
+        });
+    }
+    pliant_clearance clearance(const Query &query, double cut_off) {
+        return told_unless<pliant_clearance>(query, [&](auto *plain, auto *all, auto *error) {
+            return pliant_world_clearance(get(), plain, cut_off, all, error);
+        });
+    }
+    pliant_feature_pairs feature_pairs(const Query &query, double distance) {
+        return told_unless<pliant_feature_pairs>(query, [&](auto *plain, auto *all, auto *error) {
+            return pliant_world_feature_pairs(get(), plain, distance, all, error);
+        });
+    }
+
+    /* Where pairs of triangles meet, as hits have them. */
+    pliant_segments segments(const std::uint32_t *pairs, std::size_t count) {
+        return told<pliant_segments>(pliant_world_segments, pairs, count);
+    }
+    pliant_curves curves(const std::uint32_t *pairs, std::size_t count, bool areas = false) {
+        return told<pliant_curves>(pliant_world_curves, pairs, count, std::uint8_t(areas));
+    }
+
+    /* What it has. Views are valid until the same is asked again. */
+    View<std::uint32_t> bodies() const { return list<1>(pliant_world_bodies); }
+    View<std::uint32_t> triangles(std::uint32_t body) const {
+        return list<3>(pliant_world_triangles, body);
+    }
+    View<std::uint32_t> edges(std::uint32_t body) const {
+        return list<2>(pliant_world_edges, body);
+    }
+    View<std::uint32_t> vertex_order(std::uint32_t body) const {
+        return list<1>(pliant_world_vertex_order, body);
+    }
+    View<std::uint32_t> components(std::uint32_t body) const {
+        return list<1>(pliant_world_components, body);
+    }
+    View<std::uint32_t> vertex_groups(std::uint32_t body) const {
+        return list<1>(pliant_world_vertex_groups, body);
+    }
+    View<std::uint32_t> live_triangles(std::uint32_t body) const {
+        return list<1>(pliant_world_live_triangles, body);
+    }
+    View<std::uint32_t> live_vertices(std::uint32_t body) const {
+        return list<1>(pliant_world_live_vertices, body);
+    }
+    View<std::uint32_t> tree_cut(std::uint32_t body, std::uint32_t level) const {
+        return list<1>(pliant_world_tree_cut, body, level);
+    }
+    /* Bodies that ignore each other, two a pair. */
+    View<std::uint32_t> ignored() const { return list<2>(pliant_world_ignored); }
+    /* Labels, and pairs of neighbours; neither if there are none. */
+    std::pair<View<std::uint32_t>, View<std::uint32_t>> labels(std::uint32_t body) const {
+        pliant_list all{}, pairs{};
+        call(pliant_world_labels, body, &all, &pairs);
+        return {{all.numbers, all.count}, {pairs.numbers, 2 * pairs.count}};
+    }
+
+    std::size_t triangle_count(std::uint32_t body) const { return counts(body).first; }
+    std::size_t vertex_count(std::uint32_t body) const { return counts(body).second; }
+    /* Positions, a copy, in double precision. */
+    std::vector<std::array<double, 3>> positions(std::uint32_t body) const {
+        std::vector<std::array<double, 3>> all(vertex_count(body));
+        call(pliant_world_positions, body, all.data()->data(), all.size());
+        return all;
+    }
+    /* Those at the end of a motion, and of a rest shape; empty without one. */
+    std::vector<std::array<double, 3>> end_positions(std::uint32_t body) const {
+        return positions_if(pliant_world_end_positions, body);
+    }
+    std::vector<std::array<double, 3>> rest_positions(std::uint32_t body) const {
+        return positions_if(pliant_world_rest_positions, body);
+    }
+    std::vector<double> thickness(std::uint32_t body) const {
+        std::vector<double> all(vertex_count(body));
+        call(pliant_world_thickness, body, all.data(), all.size());
+        return all;
+    }
+    /* Membership and mask. */
+    std::pair<std::uint32_t, std::uint32_t> filter(std::uint32_t body) const {
+        std::uint32_t membership = 0, mask = 0;
+        call(pliant_world_filter, body, &membership, &mask);
+        return {membership, mask};
+    }
+    std::uint32_t environment(std::uint32_t body) const {
+        return told<std::uint32_t>(pliant_world_environment, body);
+    }
+    std::uint64_t mesh_revision(std::uint32_t body) const {
+        return told<std::uint64_t>(pliant_world_mesh_revision, body);
+    }
+    /* Lower and upper corner, if there is one. */
+    std::optional<std::array<double, 6>> loose_box(std::uint32_t body) const {
+        std::array<double, 6> corners{};
+        std::uint8_t has = 0;
+        call(pliant_world_loose_box, body, corners.data(), &has);
+        return has ? std::optional(corners) : std::nullopt;
+    }
+    double tree_quality(std::uint32_t body) const {
+        return told<double>(pliant_world_tree_quality, body);
+    }
+    pliant_tree_shape tree_shape(std::uint32_t body) const {
+        return told<pliant_tree_shape>(pliant_world_tree_shape, body);
+    }
+    pliant_boxes tree_boxes(std::uint32_t body, std::uint32_t level) const {
+        return told<pliant_boxes>(pliant_world_tree_boxes, body, level);
+    }
+    pliant_options options() const { return told<pliant_options>(pliant_world_options); }
+    pliant_statistics statistics() const {
+        return told<pliant_statistics>(pliant_world_statistics);
+    }
+    std::size_t memory_usage() const { return told<std::size_t>(pliant_world_memory_usage); }
+    void validate() const { call(pliant_world_validate); }
 
 private:
     struct Free {
         void operator()(pliant_world *world) const { pliant_world_free(world); }
     };
 
-    explicit World(pliant_world *made) : world_(made) {}
+    World(pliant_world *made, std::shared_ptr<ParallelFor> scheduler)
+        : scheduler_(std::move(scheduler)), world_(made) {}
+
+    /* Runs tasks by a scheduler. An exception leaves tasks undone, which the library does. */
+    static void schedule(void *user, std::size_t tasks,
+                         void (*task)(const void *context, std::size_t number),
+                         const void *context) {
+        const auto one = [=](std::size_t number) { task(context, number); };
+#ifdef PLIANT_NO_EXCEPTIONS
+        (*static_cast<ParallelFor *>(user))(tasks, one);
+#else
+        try {
+            (*static_cast<ParallelFor *>(user))(tasks, one);
+        } catch (...) {
+        }
+#endif
+    }
 
     template <class F, class... Arguments> void call(F function, Arguments... arguments) const {
         pliant_error error;
@@ -280,50 +597,137 @@ private:
         return {triangles, vertices};
     }
 
-    /* Asks a question. An exception of a visitor ends it, and goes on from here. */
-    template <class F, class... Arguments>
-    pliant_hits ask(const Query &query, F function, Arguments... arguments) {
-        struct Asked {
-            const Query *query;
-            std::exception_ptr thrown;
-        } asked{&query, nullptr};
+    /* What a function writes behind its arguments. */
+    template <class T, class F, class... Arguments>
+    T told(F function, Arguments... arguments) const {
+        T out{};
+        call(function, arguments..., &out);
+        return out;
+    }
+
+    /* A list with rows of so many numbers. */
+    template <int Columns, class F, class... Arguments>
+    View<std::uint32_t> list(F function, Arguments... arguments) const {
+        const auto rows = told<pliant_list>(function, arguments...);
+        return {rows.numbers, Columns * rows.count};
+    }
+
+    template <class F>
+    std::vector<std::array<double, 3>> positions_if(F function, std::uint32_t body) const {
+        std::vector<std::array<double, 3>> all(vertex_count(body));
+        std::uint8_t has = 0;
+        call(function, body, all.data()->data(), all.size(), &has);
+        all.resize(has ? all.size() : 0);
+        return all;
+    }
+
+    /* A query on its way through C, and what a function of it threw. */
+    struct Asked {
+        const Query *query;
+        std::exception_ptr thrown;
+        std::mutex lock;
+    };
+
+    /* Calls a function of the query. An exception ends the question, and goes on from there. */
+    template <class F> static int guarded(void *user, F function) {
+        Asked &asked = *static_cast<Asked *>(user);
+#ifdef PLIANT_NO_EXCEPTIONS
+        return int(function(*asked.query));
+#else
+        try {
+            return int(function(*asked.query));
+        } catch (...) {
+            const std::lock_guard<std::mutex> held(asked.lock);
+            if (!asked.thrown) {
+                asked.thrown = std::current_exception();
+            }
+            return 1;
+        }
+#endif
+    }
+
+    /* Asks: `function` has the query of C, and where the answer and an error go. */
+    template <class T, class F> T told_unless(const Query &query, F function) const {
+        Asked asked{&query, nullptr, {}};
         pliant_query plain{};
         plain.of = query.of;
-        plain.first = query.first;
-        plain.unsorted = query.unsorted;
+        plain.how = query.how;
         plain.at_most = query.at_most;
         plain.user = &asked;
         if (query.visit) {
             plain.visit = [](void *user, const pliant_hits *some) {
-                Asked &asked = *static_cast<Asked *>(user);
-                try {
-                    return int(asked.query->visit(*some));
-                } catch (...) {
-                    asked.thrown = std::current_exception();
-                    return 1;
-                }
+                return guarded(user, [=](const Query &query) { return query.visit(*some); });
             };
         }
         if (query.interrupt) {
             plain.interrupt = [](void *user) {
-                try {
-                    return int(static_cast<Asked *>(user)->query->interrupt());
-                } catch (...) {
-                    return 1;
-                }
+                return guarded(user, [](const Query &query) { return query.interrupt(); });
             };
         }
-        pliant_hits hits{};
+        T out{};
         pliant_error error;
-        const pliant_status status = function(get(), &plain, arguments..., &hits, &error);
+        const pliant_status status = function(&plain, &out, &error);
         if (asked.thrown) {
             std::rethrow_exception(asked.thrown);
         }
         detail::check(status, error);
-        return hits;
+        return out;
     }
 
+    template <class F, class... Arguments>
+    pliant_hits ask(const Query &query, F function, Arguments... arguments) {
+        return told_unless<pliant_hits>(query, [&](auto *plain, auto *hits, auto *error) {
+            return function(get(), plain, arguments..., hits, error);
+        });
+    }
+
+    std::shared_ptr<ParallelFor> scheduler_;
     std::unique_ptr<pliant_world, Free> world_;
+};
+
+/* Memory of the last list of hits: what began, persists and ended is told of the next. */
+class Changes {
+public:
+    /* PLIANT_TRIANGLES to PLIANT_EDGE_TRIANGLE. */
+    explicit Changes(std::uint32_t elements = PLIANT_TRIANGLES) {
+        pliant_changes *made = nullptr;
+        pliant_error error;
+        detail::check(pliant_changes_new(elements, &made, &error), error);
+        changes_.reset(made);
+    }
+
+    pliant_changed update(const pliant_hits &hits) {
+        pliant_changed changed{};
+        call(pliant_changes_update, hits.pairs, hits.count, &changed);
+        return changed;
+    }
+    void edited(std::uint32_t body, const pliant_edited &edited) {
+        call(pliant_changes_edited, body, &edited);
+    }
+    /* Edges of a body before and after an edit, as World::edges has them. */
+    template <class A, class B>
+    void edges_edited(std::uint32_t body, const A &before, const B &after) {
+        call(pliant_changes_edges_edited, body, before.data(), std::size_t(before.size() / 2),
+             after.data(), std::size_t(after.size() / 2));
+    }
+    void split(std::uint32_t body, const View<pliant_piece> &pieces) {
+        call(pliant_changes_split, body, pieces.data(), pieces.size());
+    }
+    void fused(std::uint32_t body, std::uint32_t gone, const pliant_fused &fused) {
+        call(pliant_changes_fused, body, gone, &fused);
+    }
+
+private:
+    struct Free {
+        void operator()(pliant_changes *changes) const { pliant_changes_free(changes); }
+    };
+
+    template <class F, class... Arguments> void call(F function, Arguments... arguments) {
+        pliant_error error;
+        detail::check(function(changes_.get(), arguments..., &error), error);
+    }
+
+    std::unique_ptr<pliant_changes, Free> changes_;
 };
 
 } // namespace pliant

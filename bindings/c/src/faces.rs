@@ -1,6 +1,7 @@
 //! Triangles of the caller, of indices of any size.
 
-use crate::status::{BAD_INDEX, Refused, VERTEX_OUT_OF_RANGE, countable};
+use crate::arrays::countable;
+use crate::status::{BAD_INDEX, Refused, VERTEX_OUT_OF_RANGE};
 use std::ffi::c_void;
 
 /// `pliant_faces`: where the corners of triangles lie.

@@ -1,9 +1,11 @@
 //! Hits in columns, for every kind of question.
 
+use crate::arrays::start;
 use crate::pairs::{number_of, number_of_contact};
 use pliant::{
     AdjacentContact, CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, Contact, CrossingEdge,
-    EdgeEdge, EdgeEdgeImpact, Pair, VertexTriangle, VertexTriangleImpact,
+    EdgeEdge, EdgeEdgeImpact, Error, HitRows, InRows, Pair, Scalar, VertexTriangle,
+    VertexTriangleImpact, World,
 };
 use std::ptr::null;
 
@@ -29,6 +31,80 @@ pub struct PliantHits {
     pub low: *const f64,
     /// Times at which they have met.
     pub high: *const f64,
+    /// Rows of the hits, if they are asked for.
+    pub rows: PliantRows,
+}
+
+/// `pliant_rows`: rows of hits, one for each element that may be the first of a pair.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct PliantRows {
+    /// Number of rows.
+    pub count: usize,
+    /// Where each row begins among the places, and where the last ends.
+    pub offsets: *const u32,
+    /// Places of hits in their columns.
+    pub places: *const u32,
+    /// Number of bodies.
+    pub body_count: usize,
+    /// Bodies in the order of their rows.
+    pub bodies: *const u32,
+    /// First row of each.
+    pub starts: *const usize,
+}
+
+impl PliantRows {
+    const NONE: Self = Self {
+        count: 0,
+        offsets: null(),
+        places: null(),
+        body_count: 0,
+        bodies: null(),
+        starts: null(),
+    };
+}
+
+/// Rows of hits, kept from call to call.
+#[derive(Default)]
+pub(crate) struct Rows {
+    of_hits: HitRows,
+    bodies: Vec<u32>,
+    starts: Vec<usize>,
+}
+
+impl Rows {
+    pub(crate) fn update<S: Scalar, H: InRows>(
+        &mut self,
+        world: &World<S>,
+        hits: &[H],
+    ) -> Result<(), Error> {
+        self.clear();
+        self.of_hits.update(world, hits)?;
+        for body in world.bodies() {
+            self.bodies.push(body.0);
+            self.starts.extend(self.of_hits.start(body));
+        }
+        Ok(())
+    }
+
+    fn clear(&mut self) {
+        self.bodies.clear();
+        self.starts.clear();
+    }
+
+    fn view(&self) -> PliantRows {
+        if self.bodies.is_empty() {
+            return PliantRows::NONE;
+        }
+        PliantRows {
+            count: self.of_hits.offsets().len() - 1,
+            offsets: start(self.of_hits.offsets()),
+            places: start(self.of_hits.places()),
+            body_count: self.bodies.len(),
+            bodies: start(&self.bodies),
+            starts: start(&self.starts),
+        }
+    }
 }
 
 impl PliantHits {
@@ -43,6 +119,7 @@ impl PliantHits {
         points: null(),
         low: null(),
         high: null(),
+        rows: PliantRows::NONE,
     };
 }
 
@@ -51,17 +128,18 @@ impl PliantHits {
 pub(crate) struct Columns {
     count: usize,
     pairs: Vec<[u32; 4]>,
-    kinds: Vec<u8>,
+    pub(crate) kinds: Vec<u8>,
     distances: Vec<f64>,
     directions: Vec<[f64; 3]>,
     weights: Vec<f64>,
     points: Vec<[f64; 6]>,
     low: Vec<f64>,
     high: Vec<f64>,
+    pub(crate) rows: Rows,
 }
 
 /// A hit that has columns.
-pub(crate) trait Row: Copy {
+pub(crate) trait Row: Copy + InRows {
     fn put(&self, columns: &mut Columns);
 }
 
@@ -69,6 +147,7 @@ impl Columns {
     /// Takes some hits, in place of all before.
     pub(crate) fn take<H: Row>(&mut self, hits: &[H]) {
         self.count = hits.len();
+        self.rows.clear();
         self.pairs.clear();
         self.kinds.clear();
         self.directions.clear();
@@ -88,13 +167,6 @@ impl Columns {
 
     /// The columns as the caller reads them.
     pub(crate) fn view(&self) -> PliantHits {
-        fn start<T, N>(list: &[T]) -> *const N {
-            if list.is_empty() {
-                null()
-            } else {
-                list.as_ptr().cast()
-            }
-        }
         PliantHits {
             count: self.count,
             pairs: start(&self.pairs),
@@ -105,6 +177,7 @@ impl Columns {
             points: start(&self.points),
             low: start(&self.low),
             high: start(&self.high),
+            rows: self.rows.view(),
         }
     }
 

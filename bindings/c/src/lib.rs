@@ -5,23 +5,47 @@
 //! | file | what |
 //! |---|---|
 //! | `status` | statuses, errors, and what becomes of a panic |
+//! | `arrays` | arrays of numbers, read and written |
 //! | `points` | coordinates of the caller, wherever they lie |
 //! | `faces` | triangles of the caller, of indices of any size |
 //! | `pairs` | functions on single pairs, without a world |
-//! | `world` | worlds: bodies, shapes, motions, filters |
-//! | `questions` | questions of a world: all hits, the first, a visit |
+//! | `options` | options, and whose threads work |
+//! | `world` | worlds: made, copied, freed; one call at a time |
+//! | `bodies` | bodies: shapes, meshes, motions, who meets whom |
+//! | `looking` | what a world has |
+//! | `edits` | meshes that change |
+//! | `questions` | questions with a list: all hits, the first, a visit, rows |
 //! | `hits` | hits in columns |
+//! | `answers` | questions with one answer |
+//! | `curves` | where pairs meet; each contact once |
+//! | `changes` | what began and ended since the last list |
 
+mod answers;
+mod arrays;
+mod bodies;
+mod changes;
+mod curves;
+mod edits;
 mod faces;
 mod hits;
+mod looking;
+mod options;
 mod pairs;
 mod points;
 mod questions;
 mod status;
 mod world;
 
+pub use answers::*;
+pub use arrays::PliantList;
+pub use bodies::*;
+pub use changes::*;
+pub use curves::*;
+pub use edits::*;
 pub use faces::PliantFaces;
-pub use hits::PliantHits;
+pub use hits::{PliantHits, PliantRows};
+pub use looking::*;
+pub use options::*;
 pub use pairs::*;
 pub use points::{PliantPoints, PliantScalar};
 pub use questions::*;

@@ -4,7 +4,8 @@
 //! `[[[f64; 3]; 4]]` has them, they are read where they lie. Else some thousands are copied at a
 //! time.
 
-use crate::status::{BAD_SCALAR, DIFFERENT_COUNTS, Refused, WOULD_ROUND, countable};
+use crate::arrays::countable;
+use crate::status::{BAD_SCALAR, DIFFERENT_COUNTS, Refused, WOULD_ROUND};
 use pliant::Scalar;
 use std::borrow::Cow;
 use std::ffi::c_void;
@@ -61,12 +62,17 @@ pub(crate) trait Number: Scalar {
     const SCALAR: PliantScalar;
     /// A number of single precision, widened if need be.
     fn widened(number: f32) -> Self;
+    /// The nearest number to one of double precision.
+    fn nearest(number: f64) -> Self;
 }
 
 impl Number for f32 {
     const SCALAR: PliantScalar = F32;
     fn widened(number: f32) -> Self {
         number
+    }
+    fn nearest(number: f64) -> Self {
+        number as Self
     }
 }
 
@@ -75,6 +81,26 @@ impl Number for f64 {
     fn widened(number: f32) -> Self {
         number.into()
     }
+    fn nearest(number: f64) -> Self {
+        number
+    }
+}
+
+/// A corner of a box in this precision, unless that would round it.
+pub(crate) fn exactly<S: Number>(corner: [f64; 3]) -> Result<[S; 3], Refused> {
+    let near = corner.map(S::nearest);
+    // A number that no position may be is refused as such.
+    let is_kept = |axis: usize| {
+        let x = corner[axis];
+        near[axis].to_f64() == x || x.is_nan() || x.abs() > f64::from(f32::MAX)
+    };
+    if (0..3).all(is_kept) {
+        return Ok(near);
+    }
+    let words = "a corner of double precision would be rounded; round it as is right for you";
+    let mut refused = Refused::new(WOULD_ROUND, words);
+    refused.0.position = corner;
+    Err(refused)
 }
 
 /// Positions of a body's vertices as a world of this precision takes them: where they lie, if they

@@ -1,9 +1,10 @@
 //! Questions of a world: lists, first hits and visits, all by one query and one form of answer.
 
+use crate::arrays::{give, refused};
 use crate::hits::{Columns, PliantHits, Row};
 use crate::status::{BAD_OPTION, PliantError, PliantStatus, Refused};
-use crate::world::{Inside, PliantSelection, PliantWorld, give, inside, with_world};
-use pliant::{ContactKind, Query, Selection};
+use crate::world::{Inside, PliantWorld, inside, with_world};
+use pliant::{BodyId, ContactKind, Query, Selection};
 use std::ffi::{c_int, c_void};
 use std::ops::ControlFlow;
 
@@ -13,10 +14,8 @@ use std::ops::ControlFlow;
 pub struct PliantQuery {
     /// Whom it is about.
     pub of: PliantSelection,
-    /// 1 for some hit, 0 for all.
-    pub first: u8,
-    /// 1 for job order, 0 for sorted.
-    pub unsorted: u8,
+    /// Which hits are wanted, and in which order.
+    pub how: u8,
     /// Most hits of a list; 0 for any number.
     pub at_most: u64,
     /// Shows hits instead of listing them, until it returns another number than 0.
@@ -35,8 +34,7 @@ impl PliantQuery {
             a: 0,
             b: 0,
         },
-        first: 0,
-        unsorted: 0,
+        how: ALL,
         at_most: 0,
         visit: None,
         interrupt: None,
@@ -44,57 +42,104 @@ impl PliantQuery {
     };
 }
 
-/// The caller's pointer, which threads hand to the caller's function.
+/// All hits, sorted.
+const ALL: u8 = 0;
+/// All hits in job order.
+const UNSORTED: u8 = 1;
+/// Some hit.
+const FIRST: u8 = 2;
+/// All hits in job order, and rows of them.
+const ROWS: u8 = 3;
+/// No hits: the work ahead.
+const PREPARE: u8 = 4;
+
+/// The caller's function that ends a call early, with its pointer.
 #[derive(Clone, Copy)]
-struct User(*mut c_void);
+pub(crate) struct Interrupt {
+    ask: Option<unsafe extern "C" fn(*mut c_void) -> c_int>,
+    user: *mut c_void,
+}
 
-// SAFETY: the header says that any thread may call `interrupt`, several at a time.
-unsafe impl Sync for User {}
+// SAFETY: the header says that any thread of the world may call it, several at a time.
+unsafe impl Sync for Interrupt {}
 
-impl User {
-    fn get(&self) -> *mut c_void {
-        self.0
+impl Interrupt {
+    /// Whether the caller ends the call.
+    pub(crate) fn ends(&self) -> bool {
+        // SAFETY: the caller gave this function for this.
+        self.ask.is_some_and(|ask| unsafe { ask(self.user) } != 0)
     }
 }
 
-/// Answers a query of one kind with what is asked for, into columns of its own.
+impl PliantQuery {
+    fn interrupt(&self) -> Interrupt {
+        Interrupt {
+            ask: self.interrupt,
+            user: self.user,
+        }
+    }
+
+    /// A query of one answer: whom it is about, and what may end it.
+    ///
+    /// # Safety
+    ///
+    /// It is NULL, or as the header says.
+    pub(crate) unsafe fn of_one_answer(
+        query: *const Self,
+    ) -> Result<(Selection, Interrupt), Refused> {
+        // SAFETY: as above.
+        let asked = unsafe { query.as_ref() }.copied().unwrap_or(Self::ALL);
+        if asked.how != ALL || asked.at_most != 0 || asked.visit.is_some() {
+            let words = "query.how, at_most and visit are for lists; this has one answer: give 0";
+            return refused(BAD_OPTION, words);
+        }
+        Ok((asked.of.checked()?, asked.interrupt()))
+    }
+}
+
+/// Answers a query of one kind with what is asked for, into columns of its own. Returns hits that
+/// rows are wanted of.
 fn answer<H: Row>(
     asked: &PliantQuery,
     query: Query<'_, H>,
     (list, shown): (&mut Columns, &mut Columns),
-) -> Result<(), Refused> {
-    if asked.first > 1 || asked.unsorted > 1 {
-        let words = "query.first and query.unsorted are 0 or 1";
-        return Err(Refused::new(BAD_OPTION, words));
-    }
+) -> Result<Option<Vec<H>>, Refused> {
     let query = match asked.at_most {
         0 => query,
         most => query.at_most(usize::try_from(most).unwrap_or(usize::MAX)),
     };
-    if let Some(visit) = asked.visit {
-        list.take::<H>(&[]);
-        let _ = query.visit_some(|some| {
-            shown.take(some);
-            let view = shown.view();
-            // SAFETY: the caller gave this function for this.
-            match unsafe { visit(asked.user, &raw const view) } {
-                0 => ControlFlow::Continue(()),
-                _ => ControlFlow::Break(()),
-            }
-        })?;
-    } else if asked.first == 1 {
-        list.take::<H>(&[]);
-        list.take(query.first()?.as_slice());
-    } else if asked.unsorted == 1 {
-        list.take::<H>(&[]);
-        let mut all = Vec::new();
-        query.unsorted(&mut all)?;
-        list.take(&all);
-    } else {
-        list.take::<H>(&[]);
-        list.take(query.all()?);
+    list.take::<H>(&[]);
+    match (asked.how, asked.visit) {
+        (ALL, Some(visit)) => {
+            let _ = query.visit_some(|some| {
+                shown.take(some);
+                let view = shown.view();
+                // SAFETY: the caller gave this function for this.
+                match unsafe { visit(asked.user, &raw const view) } {
+                    0 => ControlFlow::Continue(()),
+                    _ => ControlFlow::Break(()),
+                }
+            })?;
+        }
+        (ALL, None) => list.take(query.all()?),
+        (how @ (UNSORTED | ROWS), None) => {
+            let mut all = Vec::new();
+            query.unsorted(&mut all)?;
+            list.take(&all);
+            return Ok((how == ROWS).then_some(all));
+        }
+        (FIRST, None) => list.take(query.first()?.as_slice()),
+        (PREPARE, None) => query.prepare()?,
+        (how, None) => {
+            let words = format_args!("query.how is {how}; give one of PLIANT_ALL to _PREPARE");
+            return refused(BAD_OPTION, words);
+        }
+        (how, Some(_)) => {
+            let words = format_args!("query.how is {how} with a visitor; give PLIANT_ALL");
+            return refused(BAD_OPTION, words);
+        }
     }
-    Ok(())
+    Ok(None)
 }
 
 /// Asks a question, by its place among the lists and how the world is asked it.
@@ -107,20 +152,18 @@ macro_rules! ask {
             // SAFETY: as the header says.
             let asked = unsafe { $query.as_ref() }.copied().unwrap_or(PliantQuery::ALL);
             let $of: Selection = asked.of.checked()?;
-            let user = User(asked.user);
-            let interrupt = asked.interrupt;
-            let question = || {
-                // SAFETY: the caller gave this function for this.
-                interrupt.is_some_and(|interrupt| unsafe { interrupt(user.get()) } != 0)
-            };
-            let lists = (&mut inside.lists[$place], &mut inside.shown);
+            let interrupt = asked.interrupt();
+            let question = || interrupt.ends();
+            let list = &mut inside.lists[$place];
             with_world!(&mut inside.world, $inside => {
                 let query = $ask;
-                let query = match interrupt {
+                let query = match asked.interrupt {
                     Some(_) => query.interrupt_if(&question),
                     None => query,
                 };
-                answer(&asked, query, lists)?;
+                if let Some(hits) = answer(&asked, query, (list, &mut inside.shown))? {
+                    list.rows.update($inside, &hits)?;
+                }
             });
             // SAFETY: as the header says.
             unsafe { give($hits, inside.lists[$place].view()) };
@@ -241,28 +284,30 @@ impacts! {
     10, pliant_world_edge_edge_impacts, edge_edge_impacts;
 }
 
-/// `pliant_world_collision_free_step`.
-///
-/// # Safety
-///
-/// Pointers are NULL, or as the header says.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn pliant_world_collision_free_step(
-    world: *mut PliantWorld,
-    of: PliantSelection,
-    min_distance: f64,
-    step: *mut f64,
-    error: *mut PliantError,
-) -> PliantStatus {
-    let work = |inside: &mut Inside| {
-        let of = of.checked()?;
-        let free = with_world!(&mut inside.world, world => {
-            world.collision_free_step(of, min_distance)?
-        });
-        // SAFETY: as the header says.
-        unsafe { give(step, free) };
-        Ok(())
-    };
-    // SAFETY: as the header says.
-    unsafe { inside(world, error, work) }
+/// `pliant_selection`: whom a question is about.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct PliantSelection {
+    /// Which selection.
+    pub kind: u32,
+    /// The body, or the first of two.
+    pub a: u32,
+    /// The second of two.
+    pub b: u32,
+}
+
+impl PliantSelection {
+    pub(crate) fn checked(self) -> Result<Selection, Refused> {
+        let (a, b) = (BodyId(self.a), BodyId(self.b));
+        match self.kind {
+            0 => Ok(Selection::Everything),
+            1 => Ok(Selection::World),
+            2 => Ok(Selection::Between(a, b)),
+            3 => Ok(Selection::Within(a)),
+            other => Err(Refused::new(
+                BAD_OPTION,
+                format_args!("of.kind is {other}; give one of PLIANT_EVERYTHING to _WITHIN"),
+            )),
+        }
+    }
 }

@@ -45,6 +45,20 @@ statuses! {
     BAD_DISTANCE = 33;
     BAD_TIME = 34;
     BAD_THICKNESS = 35;
+    NO_SUCH_TRIANGLE = 40;
+    EMPTY_TRIANGLE = 41;
+    NO_SUCH_VERTEX = 42;
+    EMPTY_VERTEX = 43;
+    VERTEX_IN_USE = 44;
+    NOT_A_CORNER = 45;
+    NO_SUCH_EDGE = 46;
+    MISSING_EDGE = 47;
+    NOT_AN_EDGE = 48;
+    EDITED_MESH = 49;
+    OUTDATED_EDIT = 50;
+    BAD_LOOSE_BOX = 51;
+    OUTSIDE_LOOSE_BOX = 52;
+    INVALID = 60;
 }
 
 /// Bytes of a message, the 0 at its end included.
@@ -105,17 +119,12 @@ impl Refused {
     pub(crate) fn null(name: &str) -> Self {
         Self::new(NULL, format_args!("{name} is NULL; give an array"))
     }
-}
 
-/// Refuses a count of things that 32-bit numbers cannot keep apart, by its name in the header.
-pub(crate) fn countable(count: usize, name: &str) -> Result<(), Refused> {
-    if u32::try_from(count).is_ok() {
-        return Ok(());
+    /// The same about a body.
+    pub(crate) fn of(mut self, body: u32) -> Self {
+        self.0.body = body;
+        self
     }
-    let words = format_args!("{name} is {count}, more than 32-bit numbers keep apart");
-    let mut refused = Refused::new(TOO_LARGE, words);
-    (refused.0.count, refused.0.limit) = (count as u64, u32::MAX.into());
-    Err(refused)
 }
 
 impl From<Error> for Refused {
@@ -174,8 +183,62 @@ impl From<Error> for Refused {
                 (it.vertex, it.number) = (vertex as u32, thickness);
             }),
             ErrorKind::BadTime { time } => with(BAD_TIME, &|it| it.number = time),
-            _ => plain(OTHER),
+            ErrorKind::OutsideLooseBox { vertex, position } => with(OUTSIDE_LOOSE_BOX, &|it| {
+                (it.vertex, it.position) = (vertex as u32, position);
+            }),
+            ErrorKind::BadLooseBox => plain(BAD_LOOSE_BOX),
+            kind => with(OTHER, &|it| it.mesh(&kind)),
         }
+    }
+}
+
+impl PliantError {
+    /// Says why an edit, pairs or edges of a mesh are refused.
+    fn mesh(&mut self, kind: &ErrorKind) {
+        self.status = match *kind {
+            ErrorKind::NoSuchTriangle {
+                triangle,
+                triangles,
+            } => {
+                (self.triangle, self.limit) = (triangle, triangles as u64);
+                NO_SUCH_TRIANGLE
+            }
+            ErrorKind::EmptyTriangle { triangle } => {
+                self.triangle = triangle;
+                EMPTY_TRIANGLE
+            }
+            ErrorKind::NoSuchVertex { vertex, vertices } => {
+                (self.vertex, self.limit) = (vertex, vertices as u64);
+                NO_SUCH_VERTEX
+            }
+            ErrorKind::EmptyVertex { vertex } => {
+                self.vertex = vertex;
+                EMPTY_VERTEX
+            }
+            ErrorKind::VertexInUse { vertex } => {
+                self.vertex = vertex;
+                VERTEX_IN_USE
+            }
+            ErrorKind::NotACorner { triangle, vertex } => {
+                (self.triangle, self.vertex) = (triangle, vertex);
+                NOT_A_CORNER
+            }
+            ErrorKind::NoSuchEdge { edge, edges } => {
+                (self.count, self.limit) = (edge.into(), edges as u64);
+                NO_SUCH_EDGE
+            }
+            ErrorKind::MissingEdge { ends } => {
+                self.vertex = ends[0];
+                MISSING_EDGE
+            }
+            ErrorKind::NotAnEdge { edge, ends } => {
+                (self.count, self.vertex) = (edge.into(), ends[0]);
+                NOT_AN_EDGE
+            }
+            ErrorKind::EditedMesh => EDITED_MESH,
+            ErrorKind::OutdatedEdit => OUTDATED_EDIT,
+            _ => OTHER,
+        };
     }
 }
 

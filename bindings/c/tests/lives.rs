@@ -95,17 +95,14 @@ fn asked(
     };
     assert_eq!(ask(&visitor, &mut hits), 0);
     assert_eq!((count, hits.count), (lines.len(), 0));
-    let unsorted = PliantQuery {
-        unsorted: 1,
-        ..query
-    };
+    let unsorted = PliantQuery { how: 1, ..query };
     assert_eq!(ask(&unsorted, &mut hits), 0);
     let mut all = write(&hits);
     let mut sorted = lines.clone();
     all.sort();
     sorted.sort();
     assert_eq!(all, sorted);
-    let first = PliantQuery { first: 1, ..query };
+    let first = PliantQuery { how: 2, ..query };
     assert_eq!(ask(&first, &mut hits), 0);
     let first = write(&hits);
     assert_eq!(first.len(), lines.len().min(1));
@@ -301,8 +298,13 @@ fn compare<S: Scalar>(c: *mut PliantWorld, rust: &mut World<S>, of: Selection) {
     );
     let (mut step, expected) = (f64::NAN, rust.collision_free_step(of, 0.125).unwrap());
     // SAFETY: the world and all arguments are there.
-    let status =
-        unsafe { pliant_world_collision_free_step(c, selection, 0.125, &raw mut step, null_mut()) };
+    let status = unsafe {
+        let query = PliantQuery {
+            of: selection,
+            ..PliantQuery::ALL
+        };
+        pliant_world_collision_free_step(c, &raw const query, 0.125, &raw mut step, null_mut())
+    };
     assert_eq!((status, step), (0, expected));
 }
 
@@ -310,20 +312,10 @@ fn compare<S: Scalar>(c: *mut PliantWorld, rust: &mut World<S>, of: Selection) {
 fn life<S: Scalar>(seed: u64, cast: fn(f64) -> S) {
     let random = &mut Random(seed);
     let mut rust = World::<S>::new();
-    let mut options = PliantOptions {
-        scalar: 0,
-        threads: 0,
-        degree: 0,
-        partition: 0,
-        leaf_size: 0,
-        update: 0,
-        broad_phase: 0,
-        mending: 0,
-    };
+    let mut options = PliantOptions::default();
     let mut c = null_mut();
     // SAFETY: all arguments are there.
     unsafe {
-        pliant_options_default(&raw mut options);
         options.scalar = i32::from(size_of::<S>() == 8);
         options.threads = 1 + random.below(2) as u32;
         options.partition = random.below(4) as u32;

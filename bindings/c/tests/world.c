@@ -112,11 +112,11 @@ static void answers_live_side_by_side(void) {
     CHECK(!later.pairs);
     CHECK(pliant_world_intersections(copy, NULL, &later, NULL) == PLIANT_OK && later.count == 1);
     /* Edges by the caller's numbers, labels, another mesh. */
-    const uint32_t own[6] = {1, 2, 0, 2, 0, 1}, *edges = NULL, labels[1] = {3}, near[2] = {3, 4};
-    size_t edge_count = 0;
+    const uint32_t own[6] = {1, 2, 0, 2, 0, 1}, labels[1] = {3}, near[2] = {3, 4};
+    pliant_list edges;
     CHECK(pliant_world_set_edges(copy, bodies[1], own, 3, NULL) == PLIANT_OK);
-    CHECK(pliant_world_edges(copy, bodies[1], &edges, &edge_count, NULL) == PLIANT_OK);
-    CHECK(edge_count == 3 && memcmp(edges, own, sizeof own) == 0);
+    CHECK(pliant_world_edges(copy, bodies[1], &edges, NULL) == PLIANT_OK);
+    CHECK(edges.count == 3 && memcmp(edges.numbers, own, sizeof own) == 0);
     CHECK(pliant_world_set_labels(copy, bodies[1], labels, 1, near, 1, NULL) == PLIANT_OK);
     CHECK(pliant_world_set_labels(copy, bodies[1], labels, 1, NULL, 0, NULL) == PLIANT_OK);
     CHECK(pliant_world_set_labels(copy, bodies[1], NULL, 0, NULL, 0, NULL) == PLIANT_OK);
@@ -125,7 +125,7 @@ static void answers_live_side_by_side(void) {
                                 points_of(leaf_at, 3, PLIANT_F64), NULL) == PLIANT_OK);
     CHECK(pliant_world_intersections(copy, NULL, &later, NULL) == PLIANT_OK && later.count == 2);
     double step = NAN;
-    CHECK(pliant_world_collision_free_step(copy, query.of, 0.0, &step, NULL) == PLIANT_OK);
+    CHECK(pliant_world_collision_free_step(copy, &query, 0.0, &step, NULL) == PLIANT_OK);
     CHECK(step > 0.0 && step <= 1.0);
     CHECK(pliant_world_remove(copy, bodies[1], NULL) == PLIANT_OK);
     CHECK(pliant_world_intersections(copy, NULL, &later, NULL) == PLIANT_OK && later.count == 0);
@@ -281,11 +281,11 @@ static void wrong_arguments(void) {
     CHECK(error.count == SIZE_MAX && error.limit == UINT32_MAX);
     refused(pliant_world_set_labels(world, bodies[0], small_labels, 2, NULL, 0, &error), &error,
             PLIANT_WRONG_LENGTH, "2 labels for 1 triangles");
-    refused(pliant_world_set_edges(world, bodies[0], small_labels, 1, &error), &error, PLIANT_OTHER,
-            "edges lack");
+    refused(pliant_world_set_edges(world, bodies[0], small_labels, 1, &error), &error,
+            PLIANT_MISSING_EDGE, "edges lack");
     refused(pliant_world_set_edges(world, bodies[0], NULL, 1, &error), &error, PLIANT_NULL,
             "edges is");
-    refused(pliant_world_edges(world, 77, NULL, NULL, &error), &error, PLIANT_NO_SUCH_BODY, "77");
+    refused(pliant_world_edges(world, 77, NULL, &error), &error, PLIANT_NO_SUCH_BODY, "77");
     refused(pliant_world_set_mesh(world, bodies[0], faces_of(small, 1, 2, 0), bad_points, &error),
             &error, PLIANT_BAD_POSITION, "vertex 1");
     refused(pliant_world_advance_motion(world, 2.0, &error), &error, PLIANT_BAD_TIME, "time");
@@ -299,9 +299,9 @@ static void wrong_arguments(void) {
     refused(pliant_world_crossing_edges(world, &query, &hits, &error), &error, PLIANT_SAME_BODY,
             "twice");
     query.of.kind = PLIANT_EVERYTHING;
-    query.first = 2;
+    query.how = 5;
     refused(pliant_world_edge_edge_candidates(world, &query, 0, &hits, &error), &error,
-            PLIANT_BAD_OPTION, "first");
+            PLIANT_BAD_OPTION, "how is 5");
     refused(pliant_world_vertex_triangle_candidates(world, NULL, -1, &hits, &error), &error,
             PLIANT_BAD_MARGIN, "-1");
     CHECK(error.number == -1.0);
@@ -313,7 +313,7 @@ static void wrong_arguments(void) {
             PLIANT_BAD_WIDTH, "-1");
     refused(pliant_world_adjacent_intersections(world, NULL, 4, &hits, &error), &error,
             PLIANT_BAD_OPTION, "only is 4");
-    refused(pliant_world_collision_free_step(world, query.of, -1, NULL, &error), &error,
+    refused(pliant_world_collision_free_step(world, NULL, -1, NULL, &error), &error,
             PLIANT_BAD_DISTANCE, "-1");
     refused(pliant_world_clone(world, NULL, &error), &error, PLIANT_NULL, "copy");
     refused(pliant_world_clone(NULL, &none, &error), &error, PLIANT_NULL, "world");

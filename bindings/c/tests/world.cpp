@@ -85,7 +85,7 @@ int main() {
     }
     CHECK(thrown);
     query = {};
-    query.first = true;
+    query.how = PLIANT_FIRST;
     CHECK(copy.intersections(query).count == 1);
     query = {};
     query.interrupt = [] { return true; };

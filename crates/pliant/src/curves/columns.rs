@@ -97,6 +97,10 @@ impl CurveColumns {
     }
 
     /// Adds the areas that each curve encloses on both sides; NaN for none.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`Curve::enclosed_areas`].
     pub fn with_areas<S: Scalar>(
         mut self,
         curves: &Curves,

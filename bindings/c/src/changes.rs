@@ -1,0 +1,232 @@
+//! Changes of a list of hits from one step to the next.
+
+use crate::arrays::{PliantList, give, list, start};
+use crate::edits::{PliantEdited, PliantFused, PliantPiece};
+use crate::status::{BAD_OPTION, BUSY, NULL, PANIC, PliantError, PliantStatus, Refused, call};
+use pliant::{BodyId, Fused, Piece, RowChanges, Thing};
+use std::sync::{Mutex, TryLockError};
+
+/// `pliant_changes`.
+pub struct PliantChanges(Mutex<Kept>);
+
+/// The memory of a list, and the last answer.
+struct Kept {
+    changes: RowChanges,
+    numbers: Vec<u64>,
+    began: Vec<u64>,
+    ended: Vec<[u32; 4]>,
+    ended_numbers: Vec<u64>,
+}
+
+/// `pliant_changed`: what began, persists and ended.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct PliantChanged {
+    /// Number of hits in the new list.
+    pub count: usize,
+    /// Number of each.
+    pub numbers: *const u64,
+    /// How many began.
+    pub began_count: usize,
+    /// Their places in the new list.
+    pub began: *const u64,
+    /// How many ended.
+    pub ended_count: usize,
+    /// Body, element, body, element of each.
+    pub ended: *const u32,
+    /// Number that each had.
+    pub ended_numbers: *const u64,
+}
+
+/// `pliant_changes_new`.
+///
+/// # Safety
+///
+/// Pointers are NULL, or as the header says.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pliant_changes_new(
+    elements: u32,
+    changes: *mut *mut PliantChanges,
+    error: *mut PliantError,
+) -> PliantStatus {
+    let work = || {
+        if changes.is_null() {
+            return Err(Refused::null("changes"));
+        }
+        let things = match elements {
+            0 => [Thing::Triangle; 2],
+            1 => [Thing::Vertex, Thing::Triangle],
+            2 => [Thing::Edge; 2],
+            3 => [Thing::Edge, Thing::Triangle],
+            other => {
+                return Err(Refused::new(
+                    BAD_OPTION,
+                    format_args!(
+                        "elements is {other}; give one of PLIANT_TRIANGLES to _EDGE_TRIANGLE"
+                    ),
+                ));
+            }
+        };
+        let made = Box::new(PliantChanges(Mutex::new(Kept {
+            changes: RowChanges::new(things),
+            numbers: Vec::new(),
+            began: Vec::new(),
+            ended: Vec::new(),
+            ended_numbers: Vec::new(),
+        })));
+        // SAFETY: it is not NULL, so it may be written.
+        unsafe { changes.write_unaligned(Box::into_raw(made)) };
+        Ok(())
+    };
+    // SAFETY: as the header says.
+    unsafe { call(error, work) }
+}
+
+/// `pliant_changes_free`.
+///
+/// # Safety
+///
+/// It is NULL, or was made, is not freed, and no call is inside.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pliant_changes_free(changes: *mut PliantChanges) {
+    if !changes.is_null() {
+        // SAFETY: it was made by a box, and nothing else refers to it.
+        drop(unsafe { Box::from_raw(changes) });
+    }
+}
+
+/// Runs a call with changes, unless they are NULL or another call is inside.
+///
+/// # Safety
+///
+/// They are NULL, or were made and not freed. `error` is NULL, or may be written.
+unsafe fn held(
+    changes: *const PliantChanges,
+    error: *mut PliantError,
+    work: impl FnOnce(&mut Kept) -> Result<(), Refused>,
+) -> PliantStatus {
+    let work = || {
+        // SAFETY: as above; changes are only ever shared.
+        let Some(changes) = (unsafe { changes.as_ref() }) else {
+            let words = "changes is NULL; give one of pliant_changes_new";
+            return Err(Refused::new(NULL, words));
+        };
+        let mut kept = changes.0.try_lock().map_err(|why| match why {
+            TryLockError::WouldBlock => Refused::new(BUSY, "another call is inside these changes"),
+            TryLockError::Poisoned(_) => Refused::new(PANIC, "the changes are broken; free them"),
+        })?;
+        work(&mut kept)
+    };
+    // SAFETY: as above.
+    unsafe { call(error, work) }
+}
+
+/// Functions of changes: name, arguments, and the call.
+macro_rules! notes {
+    ($(fn $name:ident($($argument:ident: $type:ty),* $(,)?) |$kept:ident| $work:block)*) => {
+        $(
+            #[doc = concat!("`", stringify!($name), "`.")]
+            ///
+            /// # Safety
+            ///
+            /// Pointers are NULL, or as the header says.
+            #[unsafe(no_mangle)]
+            pub unsafe extern "C" fn $name(
+                changes: *const PliantChanges,
+                $($argument: $type,)*
+                error: *mut PliantError,
+            ) -> PliantStatus {
+                let work = |$kept: &mut Kept| $work;
+                // SAFETY: as the header says.
+                unsafe { held(changes, error, work) }
+            }
+        )*
+    };
+}
+
+notes! {
+    fn pliant_changes_update(
+        pairs: *const u32,
+        count: usize,
+        changed: *mut PliantChanged,
+    ) |kept| {
+        // SAFETY: as the header says.
+        let pairs = unsafe { list(pairs.cast::<[u32; 4]>(), count, "pairs")? };
+        let things = |[body_a, a, body_b, b]: [u32; 4]| [(BodyId(body_a), a), (BodyId(body_b), b)];
+        let told = kept.changes.update(pairs.into_iter().map(things));
+        let row = |[(body_a, a), (body_b, b)]: [(BodyId, u32); 2]| [body_a.0, a, body_b.0, b];
+        told.numbers.clone_into(&mut kept.numbers);
+        kept.began = told.began.iter().map(|&place| place as u64).collect();
+        kept.ended = told.ended.iter().map(|ended| row(ended.things)).collect();
+        kept.ended_numbers = told.ended.iter().map(|ended| ended.number).collect();
+        let view = PliantChanged {
+            count: kept.numbers.len(),
+            numbers: start(&kept.numbers),
+            began_count: kept.began.len(),
+            began: start(&kept.began),
+            ended_count: kept.ended.len(),
+            ended: start(&kept.ended),
+            ended_numbers: start(&kept.ended_numbers),
+        };
+        // SAFETY: as the header says.
+        unsafe { give(changed, view) };
+        Ok(())
+    }
+
+    fn pliant_changes_edited(body: u32, edited: *const PliantEdited) |kept| {
+        // SAFETY: as the header says.
+        let edited = unsafe { edited.as_ref() }.ok_or_else(|| Refused::null("edited"))?;
+        // SAFETY: as the header says.
+        let edited = unsafe { edited.copied()? };
+        kept.changes.edited(BodyId(body), &edited);
+        Ok(())
+    }
+
+    fn pliant_changes_edges_edited(
+        body: u32,
+        before: *const u32,
+        before_count: usize,
+        after: *const u32,
+        after_count: usize,
+    ) |kept| {
+        // SAFETY: as the header says.
+        let (before, after) = unsafe {
+            let before = list(before.cast::<[u32; 2]>(), before_count, "before")?;
+            (before, list(after.cast::<[u32; 2]>(), after_count, "after")?)
+        };
+        kept.changes.edges_edited(BodyId(body), &before, &after);
+        Ok(())
+    }
+
+    fn pliant_changes_split(body: u32, pieces: *const PliantPiece, count: usize) |kept| {
+        // SAFETY: as the header says.
+        let pieces = unsafe { list(pieces, count, "pieces")? };
+        let mut all = Vec::with_capacity(pieces.len());
+        for piece in pieces {
+            all.push(Piece {
+                body: BodyId(piece.body),
+                triangles: numbers(&piece.triangles, "pieces.triangles")?,
+                vertices: numbers(&piece.vertices, "pieces.vertices")?,
+            });
+        }
+        kept.changes.split(BodyId(body), &all);
+        Ok(())
+    }
+
+    fn pliant_changes_fused(body: u32, gone: u32, fused: *const PliantFused) |kept| {
+        // SAFETY: as the header says.
+        let fused = unsafe { fused.as_ref() }.ok_or_else(|| Refused::null("fused"))?;
+        let fused = Fused {
+            triangles: numbers(&fused.triangles, "fused.triangles")?,
+            vertices: numbers(&fused.vertices, "fused.vertices")?,
+        };
+        kept.changes.fused(BodyId(body), BodyId(gone), &fused);
+        Ok(())
+    }
+}
+
+/// The numbers of a list of the caller's.
+fn numbers(of: &PliantList, name: &str) -> Result<Vec<u32>, Refused> {
+    // SAFETY: the header says that lists may be read.
+    unsafe { list(of.numbers, of.count, name) }
+}

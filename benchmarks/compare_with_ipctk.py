@@ -198,8 +198,24 @@ def shapes_of(bodies, kind, amount, turn):
     return (here, ends), together
 
 
+def radius_of(bodies, kind, amount):
+    return amount / 2 * bodies.mean_edge if kind == "margin" else 0.0
+
+
+def differences(bodies, together, radius, mine, other, are_edges):
+    """Errors, and how many pairs ipctk has alone."""
+    errors = len(numpy.setdiff1d(mine, other, assume_unique=True))
+    alone = numpy.setdiff1d(other, mine, assume_unique=True)
+    largest = max(numpy.abs(shape).max() for shape in together if shape is not None)
+    allowed = 2 * radius + ROUNDING * largest
+    gap = gaps(bodies, *together, alone, are_edges) if len(alone) else numpy.zeros(0)
+    # What is nearer is ours, too. A gap is rounded once, so none below 2 r rounds to above.
+    is_ours = (gap < 2 * radius) | ((gap == 0) & (radius == 0))
+    return errors + int(((gap > allowed) | is_ours).sum()), len(alone)
+
+
 def compare(bodies, kind, amount, rounds):
-    radius = amount / 2 * bodies.mean_edge if kind == "margin" else 0.0
+    radius = radius_of(bodies, kind, amount)
     turns = [shapes_of(bodies, kind, amount, turn) for turn in (0, 1)]
     ours, theirs = Ours(bodies), Theirs(bodies)
     errors, more, counts = 0, 0, []
@@ -207,16 +223,11 @@ def compare(bodies, kind, amount, rounds):
         found = ours.ask(*separate, radius)
         theirs.ask(*together, radius)
         counts.append(sum(map(len, found)))
-        for are_edges, (mine, other) in enumerate(zip(ours.pairs(bodies, found), theirs.pairs())):
-            errors += len(numpy.setdiff1d(mine, other, assume_unique=True))
-            alone = numpy.setdiff1d(other, mine, assume_unique=True)
-            largest = max(numpy.abs(shape).max() for shape in together if shape is not None)
-            allowed = 2 * radius + ROUNDING * largest
-            gap = gaps(bodies, *together, alone, are_edges) if len(alone) else numpy.zeros(0)
-            # What is nearer is ours, too. A gap is rounded once, so none below 2 r rounds to above.
-            is_ours = (gap < 2 * radius) | ((gap == 0) & (radius == 0))
-            errors += int(((gap > allowed) | is_ours).sum())
-            more += len(alone)
+        lists = zip(ours.pairs(bodies, found), theirs.pairs())
+        for are_edges, (mine, other) in enumerate(lists):
+            wrong, alone = differences(bodies, together, radius, mine, other, are_edges)
+            errors += wrong
+            more += alone
     forms = ("sorted", "job order", "rows")
     times = []
     for _ in range(rounds):
@@ -247,7 +258,8 @@ def compare(bodies, kind, amount, rounds):
     return errors
 
 
-def arguments_of(what, rounds):
+def arguments_of(what, rounds, *more):
+    """Arguments that all comparisons have, and `more` that must be given."""
     parser = argparse.ArgumentParser(description=what.split("\n")[0])
     parser.add_argument(
         "--exporter", type=pathlib.Path, default=CHECKOUT / "target/release/examples/write_obj"
@@ -256,6 +268,8 @@ def arguments_of(what, rounds):
     parser.add_argument("--rounds", type=int, default=rounds)
     parser.add_argument("--only", default="", help="of what is compared, what has this in its name")
     parser.add_argument("--threads", type=int, default=1, help="that both use")
+    for name, text in more:
+        parser.add_argument(name, type=pathlib.Path, required=True, help=text)
     arguments = parser.parse_args()
     ipctk.set_num_threads(arguments.threads)
     threads = "one thread" if arguments.threads == 1 else f"{arguments.threads} threads"

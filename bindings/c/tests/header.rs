@@ -330,34 +330,88 @@ fn run(compiler: &str, flags: &[&str], file: &Path, by: &[&str]) -> String {
     String::from_utf8(ran.stdout).unwrap()
 }
 
-const PROGRAMS: [&str; 2] = ["tests/pairs.c", "tests/world.c"];
+const PROGRAMS: [&str; 4] = [
+    "tests/pairs.c",
+    "tests/world.c",
+    "tests/answers.c",
+    "tests/edits.c",
+];
 
-#[test]
-fn programs_in_c_and_in_cpp_do_what_they_should() {
+/// Compiles and runs the programs in C, by compilers of C and of C++.
+fn programs(c: &str, cpp: &str) {
     for file in PROGRAMS.map(|file| root().join(file)) {
-        for compiler in ["cc", "clang"] {
-            if is_there(compiler) {
-                run(compiler, &["-std=c11", "-g"], &file, &[]);
-            }
+        if is_there(c) {
+            run(c, &["-std=c11", "-g"], &file, &[]);
         }
-        for compiler in ["c++", "clang++"] {
-            if is_there(compiler) {
-                run(compiler, &["-std=c++17", "-g", "-x", "c++"], &file, &[]);
-            }
+        if is_there(cpp) {
+            run(cpp, &["-std=c++17", "-g", "-x", "c++"], &file, &[]);
         }
     }
 }
 
-/// Flags for the classes, with Eigen where it is installed.
-const CLASSES: [&str; 4] = ["-std=c++17", "-g", "-isystem", "/usr/include/eigen3"];
+#[test]
+fn programs_in_c_and_in_cpp_do_what_they_should() {
+    programs("cc", "c++");
+}
+
+/// Flags for C++, with Eigen where it is installed.
+const CLASSES: [&str; 5] = [
+    "-std=c++17",
+    "-g",
+    "-pthread",
+    "-isystem",
+    "/usr/include/eigen3",
+];
+
+/// Whether a compiler of C++ finds a header; says so if not.
+fn has(compiler: &str, header: &str) -> bool {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("probe.cpp");
+    fs::write(&file, format!("#include <{header}>\n")).unwrap();
+    let mut probe = Command::new(compiler);
+    probe.args(CLASSES).arg("-E").arg(file);
+    let has = probe.output().is_ok_and(|ran| ran.status.success());
+    if !has {
+        eprintln!("skipped: {compiler} finds no {header}");
+    }
+    has
+}
+
+/// Compiles and runs the programs with classes, with schedulers of others where these are.
+fn classes(compiler: &str) {
+    if !is_there(compiler) {
+        return;
+    }
+    let run = |file: &str, more: &[&str]| {
+        run(
+            compiler,
+            &[&CLASSES, more].concat(),
+            &root().join(file),
+            &[],
+        )
+    };
+    run("tests/world.cpp", &[]);
+    run("tests/no_exceptions.cpp", &["-fno-exceptions"]);
+    run("tests/threads.cpp", &[]);
+    if has(compiler, "tbb/parallel_for.h") {
+        let by_tbb = ["-DWITH_TBB", "-Wl,--no-as-needed", "-ltbb"];
+        run("tests/threads.cpp", &by_tbb);
+    }
+    if has(compiler, "omp.h") {
+        run("tests/threads.cpp", &["-fopenmp"]);
+    }
+}
 
 #[test]
 fn classes_do_what_they_should() {
-    for compiler in ["c++", "clang++"] {
-        if is_there(compiler) {
-            run(compiler, &CLASSES, &root().join("tests/world.cpp"), &[]);
-        }
-    }
+    classes("c++");
+}
+
+#[test]
+#[ignore = "for releases: needs clang"]
+fn another_compiler_takes_it_all() {
+    programs("clang", "clang++");
+    classes("clang++");
 }
 
 #[test]
@@ -379,8 +433,68 @@ fn programs_run_clean_under_sanitizers_and_valgrind() {
         ];
         run("cc", &["-std=c11", "-g"], &file, &valgrind);
     }
-    let flags = [&CLASSES[..], &["-fsanitize=address,undefined"]].concat();
-    run("c++", &flags, &root().join("tests/world.cpp"), &[]);
+    for file in ["tests/world.cpp", "tests/threads.cpp"] {
+        let flags = [&CLASSES[..], &["-fsanitize=address,undefined"]].concat();
+        run("c++", &flags, &root().join(file), &[]);
+    }
+    // The threads of C++ alone: the library is compiled without, so what it does is left out.
+    let folder = tempfile::tempdir().unwrap();
+    let left_out = folder.path().join("left_out");
+    fs::write(&left_out, "called_from_lib:libpliant_c.so\n").unwrap();
+    let options = format!("TSAN_OPTIONS=suppressions={}", left_out.display());
+    let flags = [&CLASSES[..], &["-fsanitize=thread"]].concat();
+    run(
+        "c++",
+        &flags,
+        &root().join("tests/threads.cpp"),
+        &["env", &options],
+    );
+}
+
+#[test]
+fn examples_say_what_they_should() {
+    if is_there("cc") {
+        let said = run(
+            "cc",
+            &["-std=c11", "-O1"],
+            &root().join("examples/batch.c"),
+            &[],
+        );
+        assert!(said.contains("of 100000 pairs meet; pair "), "{said}");
+    }
+    if is_there("c++") && has("c++", "Eigen/Core") {
+        let said = cloth_on_ball("1");
+        assert!(said.contains("1.00 s: cloth at 0.5"), "{said}");
+    }
+}
+
+/// What the example prints of so many seconds.
+fn cloth_on_ball(seconds: &str) -> String {
+    let file = root().join("examples/cloth_on_ball.cpp");
+    let flags = [&CLASSES[..], &["-O1", "-ffp-contract=off"]].concat();
+    run(
+        "c++",
+        &flags,
+        &file,
+        &["sh", "-c", &format!("$0 {seconds}")],
+    )
+}
+
+#[test]
+#[ignore = "for releases: compiles the example in Rust, too"]
+fn the_cloth_on_the_ball_is_the_same_in_rust() {
+    let mut example = Command::new(env!("CARGO"));
+    example.args([
+        "run",
+        "-p",
+        "pliant",
+        "--example",
+        "cloth_on_ball",
+        "--",
+        "3",
+    ]);
+    example.env("CARGO_TARGET_DIR", libraries().join("installed"));
+    assert_eq!(succeeds(&mut example), cloth_on_ball("3"));
 }
 
 #[test]

@@ -127,12 +127,109 @@ int main() {
     world.set_filter(leaf, 1, 2);
     world.set_environment(leaf, 1);
     world.ignore(floor, leaf);
-    CHECK(world.intersections().count == 0);
+    CHECK(world.intersections().count == 0 && world.ignored().size() == 2);
+    CHECK(world.filter(leaf).second == 2 && world.environment(leaf) == 1);
+    world.unignore(floor, leaf);
+    CHECK(world.ignored().size() == 0 && world.ignored().begin() == world.ignored().end());
     world.set_vertex_groups(leaf, std::vector<std::uint32_t>(3, 1));
+    CHECK(world.vertex_groups(leaf)[2] == 1);
     world.set_vertex_thickness(leaf, std::vector<double>(3, 0.5));
+    world.set_thickness(floor, 0.25);
+    CHECK(world.thickness(leaf)[0] == 0.5 && world.thickness(floor)[2] == 0.25);
+    const std::vector<std::array<std::uint32_t, 2>> near{{4, 5}}, none;
+    world.set_labels(leaf, std::vector<std::uint32_t>(1, 4), &near);
+    CHECK(world.labels(leaf).first[0] == 4 && world.labels(leaf).second[1] == 5);
+    world.set_labels(leaf, std::vector<std::uint32_t>(1, 4), &none);
     world.set_labels(leaf, std::vector<std::uint32_t>(1, 4));
+    world.set_labels(leaf, nullptr);
+    CHECK(world.labels(leaf).first.size() == 0);
+    CHECK(world.rest_positions(leaf).empty() && world.end_positions(leaf).empty());
     world.set_rest_positions(leaf, leaf_at);
+    CHECK(world.rest_positions(leaf) == leaf_at);
+    world.set_rest_positions(leaf, nullptr);
+    world.set_loose_box(leaf, {-9, -9, -9, 9, 9, 9});
+    CHECK(world.loose_box(leaf)->at(3) == 9 && !world.loose_box(floor));
+    world.set_loose_box(leaf, nullptr);
+    world.set_motion(leaf, leaf_at);
+    CHECK(world.end_positions(leaf) == leaf_at);
+    world.finish_motion();
+    world.rebuild(leaf);
     world.set_mesh(leaf, triangle, leaf_at);
+    world.set_positions_of({floor, leaf}, {pliant::points(floor_at), pliant::points(leaf_at)});
+    CHECK(world.bodies().size() == 2 && world.triangles(leaf)[2] == 2);
+    CHECK(world.vertex_order(leaf).size() == 3 && world.components(leaf)[0] == 0);
+    CHECK(world.tree_shape(leaf).nodes == 1 && world.tree_cut(leaf, 0)[0] == 0);
+    CHECK(world.tree_boxes(leaf, 0).count == 1 && world.tree_quality(leaf) == 1.0);
+    CHECK(world.options().degree == 8 && world.memory_usage() > 0);
+    world.validate();
+
+    /* One answer, also with an interrupt that throws. */
+    world.set_environment(leaf, 0);
+    world.set_filter(leaf, 1, ~0u);
+    CHECK(world.distance(leaf, floor, 9.0).distances[0] == 2.0);
+    CHECK(world.nearest_body(leaf, 1.0).count == 0);
+    query = {};
+    query.interrupt = []() -> bool { throw 7; };
+    int number = 0;
+    try {
+        world.distance(leaf, floor, 9.0, query);
+    } catch (int what) {
+        number = what;
+    }
+    CHECK(number == 7);
+    CHECK(world.clearance(pliant::everything, 1.0).body_count == 2);
+    CHECK(world.feature_pairs(pliant::everything, 2.0).count == 1);
+    CHECK(!world.free_step().moves);
+    world.set_motion(leaf, leaf_to);
+    CHECK(world.free_step().moves && world.first_impact().count == 1);
+    world.finish_motion();
+    CHECK(world.statistics().pairs > 0);
+    const auto met = world.intersections(pliant::Query(pliant::world, PLIANT_ROWS));
+    CHECK(met.count == 1 && met.rows.body_count == 2);
+    CHECK(world.segments(met.pairs, met.count).offsets[1] == 2);
+    CHECK(world.curves(met.pairs, met.count).count == 1);
+
+    /* A mesh that changes, and lists that are followed. */
+    pliant::Changes changes;
+    CHECK(changes.update(met).began_count == 1);
+    const auto edges = world.edges(leaf);
+    const std::vector<std::uint32_t> edges_before(edges.begin(), edges.end());
+    pliant::Edit edit = world.edit(leaf);
+    const std::uint32_t first = edit.add_vertices(floor_at);
+    CHECK(first == 3 && edit.add_triangles(std::vector<std::array<int, 3>>{{3, 4, 5}}) == 1);
+    CHECK(edit.body() == leaf && edit.triangle_count() == 2 && edit.vertex_count() == 6);
+    const auto edited = world.apply(edit);
+    CHECK(edited.new_triangles.count == 1 && edited.new_vertices.count == 3);
+    changes.edited(leaf, edited);
+    changes.edges_edited(leaf, edges_before, world.edges(leaf));
+    const auto pieces = world.split(leaf);
+    changes.split(leaf, pieces);
+    CHECK(pieces.size() == 1 && world.live_triangles(leaf)[1] == 0);
+    CHECK(world.live_vertices(leaf)[3] == 0 && world.mesh_revision(leaf) > 1);
+    const std::uint32_t piece = pieces[0].body;
+    const auto fused = world.fuse(leaf, piece);
+    changes.fused(leaf, piece, fused);
+    CHECK(changes.update(world.intersections(pliant::world)).count == 2);
+    pliant::Edit other_edit = world.edit(floor);
+    const std::uint32_t copied = other_edit.split_vertex(2, std::vector<std::uint32_t>{0});
+    other_edit.merge_vertices(copied, 1);
+    other_edit.place_vertex(1, std::array<double, 3>{9, -9, 0});
+    other_edit.set_triangle(0, {0, 1, copied});
+    other_edit.remove_triangles(std::vector<std::uint32_t>{});
+    world.apply(other_edit);
+    CHECK(world.weld(floor, 0.0).removed_vertices.count == 0);
+    CHECK(pliant_changes_new(9, nullptr, nullptr) != PLIANT_OK);
+
+    /* Threads that worlds share. */
+    {
+        pliant_options shared = pliant::default_options();
+        const pliant::Pool pool(2);
+        shared.pool = pool.get();
+        shared.threads = 2;
+        pliant::World one(shared), two(shared);
+        one.add(triangle, leaf_at);
+        CHECK(one.intersections().count == 0 && two.intersections().count == 0);
+    }
     world.remove(leaf);
     pliant::World moved = std::move(world);
     CHECK(moved.intersections().count == 0);

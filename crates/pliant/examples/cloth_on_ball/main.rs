@@ -65,5 +65,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             }
         }
     }
+    println!("hash of the cloth: {:016x}", simulation.hash());
     Ok(())
 }

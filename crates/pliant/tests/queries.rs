@@ -3,7 +3,7 @@
 mod common;
 
 use common::sheet;
-use pliant::{BodyId, ErrorKind, Options, Pair, Selection, Statistics, Update, World};
+use pliant::{BodyId, ErrorKind, Options, Pair, Scheduler, Selection, Statistics, Update, World};
 use pliant_scenes::Scene;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::ops::ControlFlow;
@@ -460,4 +460,39 @@ fn a_pool_that_is_lent_gives_the_same_answers_from_inside_and_outside() {
         let all: Vec<_> = (0..4).map(|n| scope.spawn(move || ask(n))).collect();
         all.into_iter().for_each(|one| one.join().unwrap());
     });
+}
+
+/// Runs all tasks but the first, from the last, and counts them.
+#[derive(Default)]
+struct Backwards(AtomicUsize);
+
+impl Scheduler for Backwards {
+    fn run(&self, tasks: usize, task: &(dyn Fn(usize) + Sync)) {
+        self.0.fetch_add(tasks, Ordering::Relaxed);
+        (1..tasks).rev().for_each(task);
+    }
+}
+
+#[test]
+fn a_scheduler_of_the_application_gives_the_same_answers() {
+    let (mut alone, bodies) = spheres(Options::default());
+    let expected = answers(&mut alone, &bodies);
+    for threads in [1, 2, 9] {
+        let scheduler = Arc::new(Backwards::default());
+        let mut options = Options::default();
+        options.threads = NonZeroUsize::new(threads).unwrap();
+        let shared: Arc<dyn Scheduler> = scheduler.clone();
+        let mut world = World::with_scheduler(options, shared);
+        for &body in &bodies {
+            let first = alone.positions(body).unwrap();
+            world.add(alone.triangles(body).unwrap(), &first).unwrap();
+        }
+        assert!(answers(&mut world, &bodies) == expected, "{threads}");
+        let given = scheduler.0.load(Ordering::Relaxed);
+        assert_eq!(given > 0, threads > 1, "{threads}");
+        let mut copy = world.clone();
+        assert!(answers(&mut copy, &bodies) == expected, "{threads}, copied");
+        let more = scheduler.0.load(Ordering::Relaxed);
+        assert_eq!(more > given, threads > 1, "{threads}, copied");
+    }
 }

@@ -26,7 +26,7 @@ pub struct PliantFreeStep {
     pub t: f64,
     /// Body, element, body, element of the first pair that is in contact at the start.
     pub pair: [u32; 4],
-    /// What the elements are.
+    /// Kinds of the elements.
     pub begins_in_contact: u8,
     /// Whether any body has a motion.
     pub moves: u8,
@@ -59,7 +59,7 @@ calls! {
         let found = with_world!(&mut inside.world, world => {
             world.interruptible(&|| until.ends()).distance(BodyId(a), BodyId(b), cut_off)?
         });
-        let view = told(&mut inside.views.answers.distance, found.as_slice());
+        let view = told(&mut inside.views.of::<Answers>().distance, found.as_slice());
         // SAFETY: as the header says.
         unsafe { give(hits, view) };
         Ok(())
@@ -76,7 +76,7 @@ calls! {
         let found = with_world!(&mut inside.world, world => {
             world.interruptible(&|| until.ends()).nearest_body(BodyId(body), cut_off)?
         });
-        let view = told(&mut inside.views.answers.nearest, found.as_slice());
+        let view = told(&mut inside.views.of::<Answers>().nearest, found.as_slice());
         // SAFETY: as the header says.
         unsafe { give(hits, view) };
         Ok(())
@@ -92,7 +92,7 @@ calls! {
         let found = with_world!(&mut inside.world, world => {
             world.interruptible(&|| until.ends()).first_impact(of, width)?
         });
-        let list = &mut inside.views.answers.impact;
+        let list = &mut inside.views.of::<Answers>().impact;
         match found {
             None => list.take::<EdgeEdgeImpact>(&[]),
             Some(Impact::VertexTriangle(hit)) => {
@@ -157,7 +157,7 @@ calls! {
         let all = with_world!(&mut inside.world, world => {
             world.interruptible(&|| until.ends()).clearance(of, cut_off)?
         });
-        let kept = &mut inside.views.answers;
+        let kept = inside.views.of::<Answers>();
         kept.bodies.clear();
         kept.clearance.clear();
         kept.starts.clear();

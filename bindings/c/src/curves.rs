@@ -72,7 +72,7 @@ pub struct PliantCurves {
     pub lengths: *const f64,
     /// Whether they are closed.
     pub closed: *const u8,
-    /// What both ends are.
+    /// Kinds of both ends.
     pub ends: *const u8,
     /// Areas enclosed on both sides.
     pub areas: *const f64,
@@ -170,7 +170,7 @@ calls! {
     ) |inside| {
         // SAFETY: as the header says.
         let pairs = unsafe { pairs_of(pairs, count)? };
-        let kept = &mut inside.views.curves;
+        let kept = inside.views.of::<Kept>();
         with_world!(&inside.world, world => kept.found.update(world, &pairs)?);
         kept.segments = SegmentColumns::of(&kept.found);
         // SAFETY: as the header says.
@@ -190,7 +190,7 @@ calls! {
         }
         // SAFETY: as the header says.
         let pairs = unsafe { pairs_of(pairs, count)? };
-        let kept = &mut inside.views.curves;
+        let kept = inside.views.of::<Kept>();
         let linked = &mut kept.linked;
         with_world!(&inside.world, world => {
             linked.update(world, &pairs)?;
@@ -224,7 +224,7 @@ calls! {
     ) |inside| {
         // SAFETY: as the header says.
         let (of, until) = unsafe { PliantQuery::of_one_answer(query)? };
-        let kept = &mut inside.views.curves;
+        let kept = inside.views.of::<Kept>();
         with_world!(&mut inside.world, world => {
             kept.contacts.ask(world, (of, distance), Some(&|| until.ends()))?;
         });

@@ -11,7 +11,7 @@ use crate::world::{AnyWorld, calls, with_world};
 use pliant::{BodyId, Edit, Edited, Fused, Piece, World};
 use std::sync::{Mutex, MutexGuard, TryLockError};
 
-/// What changed meshes, which the caller reads until the next change.
+/// Changes of meshes, which the caller reads until the next.
 #[derive(Default)]
 pub(crate) struct Edits {
     edited: Edited,
@@ -47,7 +47,7 @@ impl PliantEdited {
         }
     }
 
-    /// The same in lists of our own.
+    /// Copies the lists.
     ///
     /// # Safety
     ///
@@ -270,9 +270,9 @@ calls! {
                 return Err(Refused::new(OUTDATED_EDIT, words));
             }
         };
-        inside.views.edits.edited = done;
+        inside.views.of::<Edits>().edited = done;
         // SAFETY: as the header says.
-        unsafe { give(edited, PliantEdited::of(&inside.views.edits.edited)) };
+        unsafe { give(edited, PliantEdited::of(&inside.views.of::<Edits>().edited)) };
         Ok(())
     }
 
@@ -287,14 +287,14 @@ calls! {
         let done = with_world!(&mut inside.world, world => {
             world.interruptible(&|| until.ends()).weld(BodyId(body), tolerance)?
         });
-        inside.views.edits.edited = done;
+        inside.views.of::<Edits>().edited = done;
         // SAFETY: as the header says.
-        unsafe { give(edited, PliantEdited::of(&inside.views.edits.edited)) };
+        unsafe { give(edited, PliantEdited::of(&inside.views.of::<Edits>().edited)) };
         Ok(())
     }
 
     fn pliant_world_split(body: u32, pieces: *mut *const PliantPiece, count: *mut usize) |inside| {
-        let kept = &mut inside.views.edits;
+        let kept = inside.views.of::<Edits>();
         kept.pieces = with_world!(&mut inside.world, world => world.split(BodyId(body))?);
         let view = |piece: &Piece| PliantPiece {
             body: piece.body.0,
@@ -312,7 +312,7 @@ calls! {
 
     fn pliant_world_fuse(a: u32, b: u32, fused: *mut PliantFused) |inside| {
         let new = with_world!(&mut inside.world, world => world.fuse(BodyId(a), BodyId(b))?);
-        let new = inside.views.edits.fused.insert(new);
+        let new = inside.views.of::<Edits>().fused.insert(new);
         let view = PliantFused {
             triangles: PliantList::of(&new.triangles),
             vertices: PliantList::of(&new.vertices),

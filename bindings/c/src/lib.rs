@@ -12,7 +12,7 @@
 //! | `options` | options, and whose threads work |
 //! | `world` | worlds: made, copied, freed; one call at a time |
 //! | `bodies` | bodies: shapes, meshes, motions, who meets whom |
-//! | `looking` | what a world has |
+//! | `looking` | a world as it is |
 //! | `edits` | meshes that change |
 //! | `questions` | questions with a list: all hits, the first, a visit, rows |
 //! | `hits` | hits in columns |

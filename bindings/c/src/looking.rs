@@ -1,4 +1,4 @@
-//! What a world has: bodies, meshes, shapes, settings, trees, counters.
+//! A world as it is: bodies, meshes, shapes, settings, trees, counters.
 
 use crate::arrays::{PliantList, give, start, write};
 use crate::options::PliantOptions;
@@ -78,7 +78,7 @@ macro_rules! lists {
     ) => {
         calls! { $(
             fn $name($($argument: $type,)* out: *mut PliantList) |inside| {
-                let kept = &mut inside.views.lists.numbers[$place];
+                let kept = &mut inside.views.of::<Lists>().numbers[$place];
                 kept.clear();
                 let rows = with_world!(&inside.world, $world => {
                     let rows = $list;
@@ -123,7 +123,7 @@ calls! {
         of_triangles: *mut PliantList,
         neighbours: *mut PliantList,
     ) |inside| {
-        let lists = &mut inside.views.lists.numbers;
+        let lists = &mut inside.views.of::<Lists>().numbers;
         let (mut all, mut pairs) = (PliantList::default(), PliantList::default());
         with_world!(&inside.world, world => if let Some(labels) = world.labels(BodyId(body))? {
             labels.of_triangles.clone_into(&mut lists[10]);
@@ -250,7 +250,7 @@ calls! {
     }
 
     fn pliant_world_tree_boxes(body: u32, level: u32, boxes: *mut PliantBoxes) |inside| {
-        let kept = &mut inside.views.lists;
+        let kept = inside.views.of::<Lists>();
         kept.corners.clear();
         kept.valid.clear();
         match &inside.world {

@@ -120,7 +120,7 @@ impl Refused {
         Self::new(NULL, format_args!("{name} is NULL; give an array"))
     }
 
-    /// The same about a body.
+    /// Says which body it is about.
     pub(crate) fn of(mut self, body: u32) -> Self {
         self.0.body = body;
         self

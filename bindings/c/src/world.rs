@@ -4,8 +4,8 @@ use crate::hits::Columns;
 use crate::options::PliantOptions;
 use crate::points::{F32, F64};
 use crate::status::{BAD_SCALAR, BUSY, NULL, PANIC, PliantError, PliantStatus, Refused, call};
-use crate::{answers, curves, edits, looking};
 use pliant::World;
+use std::any::Any;
 use std::cell::UnsafeCell;
 use std::sync::atomic::{AtomicU8, Ordering};
 
@@ -43,13 +43,21 @@ pub(crate) struct Inside {
     pub(crate) views: Views,
 }
 
-/// Answers that the caller reads until the same function is called again.
+/// Answers that the caller reads until the same function is called again: one of each type.
 #[derive(Default)]
-pub(crate) struct Views {
-    pub(crate) lists: looking::Lists,
-    pub(crate) answers: answers::Answers,
-    pub(crate) edits: edits::Edits,
-    pub(crate) curves: curves::Kept,
+pub(crate) struct Views(Vec<Box<dyn Any>>);
+
+impl Views {
+    /// The one of a type, which is empty at first.
+    pub(crate) fn of<T: Default + 'static>(&mut self) -> &mut T {
+        let place = self.0.iter().position(|it| it.is::<T>());
+        let place = place.unwrap_or_else(|| {
+            self.0.push(Box::new(T::default()));
+            self.0.len() - 1
+        });
+        let found = self.0[place].downcast_mut();
+        found.expect("it was looked for by its type")
+    }
 }
 
 /// `pliant_world`.

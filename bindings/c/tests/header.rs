@@ -210,11 +210,13 @@ fn the_version_is_that_of_the_crate() {
 }
 
 #[test]
-fn every_statement_of_the_header_is_for_a_reader_of_100_columns() {
-    let classes = fs::read_to_string(root().join("include/pliant.hpp")).unwrap();
-    for header in [header(), classes] {
-        let long: Vec<_> = header.lines().filter(|line| line.len() > 100).collect();
-        assert_eq!(long, [""; 0]);
+fn every_line_is_for_a_reader_of_100_columns() {
+    for folder in ["include", "tests", "examples"] {
+        for text in texts(&root().join(folder)) {
+            let is_long = |line: &&str| line.chars().count() > 100;
+            let long: Vec<_> = text.lines().filter(is_long).collect();
+            assert_eq!(long, [""; 0]);
+        }
     }
 }
 
@@ -400,6 +402,14 @@ fn classes(compiler: &str) {
     if has(compiler, "omp.h") {
         run("tests/threads.cpp", &["-fopenmp"]);
     }
+    if has(compiler, "Eigen/Core") {
+        run("tests/adapter.cpp", &["-O1", "-I", &stand_in()]);
+    }
+}
+
+/// The folder that stands for ipc-toolkit's headers.
+fn stand_in() -> String {
+    root().join("tests/stand_in").display().to_string()
 }
 
 #[test]
@@ -433,8 +443,10 @@ fn programs_run_clean_under_sanitizers_and_valgrind() {
         ];
         run("cc", &["-std=c11", "-g"], &file, &valgrind);
     }
-    for file in ["tests/world.cpp", "tests/threads.cpp"] {
-        let flags = [&CLASSES[..], &["-fsanitize=address,undefined"]].concat();
+    for file in ["tests/world.cpp", "tests/threads.cpp", "tests/adapter.cpp"] {
+        let stand_in = stand_in();
+        let more = ["-fsanitize=address,undefined", "-I", &stand_in];
+        let flags = [&CLASSES[..], &more].concat();
         run("c++", &flags, &root().join(file), &[]);
     }
     // The threads of C++ alone: the library is compiled without, so what it does is left out.
@@ -468,7 +480,7 @@ fn examples_say_what_they_should() {
     }
 }
 
-/// What the example prints of so many seconds.
+/// Output of the example after some seconds.
 fn cloth_on_ball(seconds: &str) -> String {
     let file = root().join("examples/cloth_on_ball.cpp");
     let flags = [&CLASSES[..], &["-O1", "-ffp-contract=off"]].concat();

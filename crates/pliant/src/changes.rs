@@ -249,7 +249,7 @@ impl RowChanges {
         });
     }
 
-    /// Notes an edit by the ends of a body's edges before and after it: an edge is the same if its
+    /// Notes an edit by the ends of a body's edges before and after it. An edge is the same if its
     /// number has the same two.
     pub fn edges_edited(&mut self, body: BodyId, before: &[[u32; 2]], after: &[[u32; 2]]) {
         self.follow(|thing, of, number| {

@@ -19,7 +19,7 @@ fn number(of: ClosestFeatures) -> u8 {
     }
 }
 
-/// What a function writes.
+/// The answer that a function writes.
 fn told<T>(ask: impl FnOnce(*mut T) -> i32) -> T {
     let mut out = MaybeUninit::uninit();
     assert_eq!(ask(out.as_mut_ptr()), 0);

@@ -1,4 +1,4 @@
-//! What a world has, by C and by Rust.
+//! Worlds as they are, by C and by Rust.
 
 use crate::{column, rows_of};
 use pliant::{BodyId, Scalar, World};

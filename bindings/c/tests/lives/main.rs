@@ -70,7 +70,7 @@ fn column<T: Copy>(start: *const T, count: usize, of: usize) -> Vec<T> {
     unsafe { slice::from_raw_parts(start, count * of) }.to_vec()
 }
 
-/// The numbers of a list, with rows of so many.
+/// The numbers of a list, whose rows have several.
 fn rows_of(list: &PliantList, columns: usize) -> Vec<u32> {
     column(list.numbers, list.count, columns)
 }

@@ -97,7 +97,7 @@ impl Threads {
         self.recorder.as_ref().map_or_else(Vec::new, Recorder::take)
     }
 
-    /// Threads for another world: private, unless those of this one are the application's.
+    /// Threads for another world: private, unless this one has the application's.
     pub(crate) fn another(&self, count: NonZeroUsize) -> Self {
         match self.helpers.as_ref().map(|helpers| &helpers.workers) {
             Some(Workers::Lent(pool)) => Self::lent(count, Arc::clone(pool)),
@@ -353,7 +353,7 @@ mod tests {
         }
     }
 
-    /// Runs every so many of the tasks, from the last, each on a thread of its own; or none.
+    /// Runs each task, or each second one, from the last, on a thread of its own; or none.
     impl Scheduler for Option<usize> {
         fn run(&self, tasks: usize, task: &(dyn Fn(usize) + Sync)) {
             let Some(step) = *self else { return };

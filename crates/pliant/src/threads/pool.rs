@@ -18,8 +18,7 @@ pub(super) const AWAKE: Duration = Duration::from_micros(200);
 /// Checks of a waiting thread before it yields its core between checks.
 const LOOKS: u32 = 100;
 
-/// Scheduler of an application that runs tasks on threads of its own, as those of TBB and OpenMP
-/// do.
+/// Scheduler of an application, which runs tasks on threads that it has: TBB, OpenMP, or its own.
 ///
 /// For [`World::with_scheduler`](crate::World::with_scheduler).
 pub trait Scheduler: Send + Sync {

@@ -155,7 +155,15 @@ const LAYERS: [(&str, &[&str]); 28] = [
     ("curves", &["ids", "error", "queries", "world"]),
     (
         "feature_pairs",
-        &["ids", "error", "geometry", "queries", "world"],
+        &[
+            "ids",
+            "error",
+            "geometry",
+            "queries",
+            "selection",
+            "threads",
+            "world",
+        ],
     ),
     ("hit_rows", &["ids", "error", "queries", "world"]),
     ("lib", &[]),

@@ -2,9 +2,10 @@
 
 use crate::arrays::{PliantList, give, list, start};
 use crate::edits::{PliantEdited, PliantFused, PliantPiece};
-use crate::status::{BAD_OPTION, BUSY, NULL, PANIC, PliantError, PliantStatus, Refused, call};
+use crate::objects::{hand_out, take_back, uses};
+use crate::status::{BAD_OPTION, PliantError, PliantStatus, Refused, call};
 use pliant::{BodyId, Fused, Piece, RowChanges, Thing};
-use std::sync::{Mutex, TryLockError};
+use std::sync::Mutex;
 
 /// `pliant_changes`.
 pub struct PliantChanges(Mutex<Kept>);
@@ -49,37 +50,28 @@ pub unsafe extern "C" fn pliant_changes_new(
     changes: *mut *mut PliantChanges,
     error: *mut PliantError,
 ) -> PliantStatus {
-    let work = || {
-        if changes.is_null() {
-            return Err(Refused::null("changes"));
-        }
+    let make = || {
         let things = match elements {
             0 => [Thing::Triangle; 2],
             1 => [Thing::Vertex, Thing::Triangle],
             2 => [Thing::Edge; 2],
             3 => [Thing::Edge, Thing::Triangle],
             other => {
-                return Err(Refused::new(
-                    BAD_OPTION,
-                    format_args!(
-                        "elements is {other}; give one of PLIANT_TRIANGLES to _EDGE_TRIANGLE"
-                    ),
-                ));
+                let least = "PLIANT_TRIANGLES to _EDGE_TRIANGLE";
+                let words = format_args!("elements is {other}; give one of {least}");
+                return Err(Refused::new(BAD_OPTION, words));
             }
         };
-        let made = Box::new(PliantChanges(Mutex::new(Kept {
+        Ok(PliantChanges(Mutex::new(Kept {
             changes: RowChanges::new(things),
             numbers: Vec::new(),
             began: Vec::new(),
             ended: Vec::new(),
             ended_numbers: Vec::new(),
-        })));
-        // SAFETY: it is not NULL, so it may be written.
-        unsafe { changes.write_unaligned(Box::into_raw(made)) };
-        Ok(())
+        })))
     };
     // SAFETY: as the header says.
-    unsafe { call(error, work) }
+    unsafe { call(error, || hand_out(changes, "changes", make)) }
 }
 
 /// `pliant_changes_free`.
@@ -89,62 +81,13 @@ pub unsafe extern "C" fn pliant_changes_new(
 /// It is NULL, or was made, is not freed, and no call is inside.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pliant_changes_free(changes: *mut PliantChanges) {
-    if !changes.is_null() {
-        // SAFETY: it was made by a box, and nothing else refers to it.
-        drop(unsafe { Box::from_raw(changes) });
-    }
-}
-
-/// Runs a call with changes, unless they are NULL or another call is inside.
-///
-/// # Safety
-///
-/// They are NULL, or were made and not freed. `error` is NULL, or may be written.
-unsafe fn held(
-    changes: *const PliantChanges,
-    error: *mut PliantError,
-    work: impl FnOnce(&mut Kept) -> Result<(), Refused>,
-) -> PliantStatus {
-    let work = || {
-        // SAFETY: as above; changes are only ever shared.
-        let Some(changes) = (unsafe { changes.as_ref() }) else {
-            let words = "changes is NULL; give one of pliant_changes_new";
-            return Err(Refused::new(NULL, words));
-        };
-        let mut kept = changes.0.try_lock().map_err(|why| match why {
-            TryLockError::WouldBlock => Refused::new(BUSY, "another call is inside these changes"),
-            TryLockError::Poisoned(_) => Refused::new(PANIC, "the changes are broken; free them"),
-        })?;
-        work(&mut kept)
-    };
     // SAFETY: as above.
-    unsafe { call(error, work) }
+    unsafe { take_back(changes) };
 }
 
-/// Functions of changes: name, arguments, and the call.
-macro_rules! notes {
-    ($(fn $name:ident($($argument:ident: $type:ty),* $(,)?) |$kept:ident| $work:block)*) => {
-        $(
-            #[doc = concat!("`", stringify!($name), "`.")]
-            ///
-            /// # Safety
-            ///
-            /// Pointers are NULL, or as the header says.
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn $name(
-                changes: *const PliantChanges,
-                $($argument: $type,)*
-                error: *mut PliantError,
-            ) -> PliantStatus {
-                let work = |$kept: &mut Kept| $work;
-                // SAFETY: as the header says.
-                unsafe { held(changes, error, work) }
-            }
-        )*
-    };
-}
+uses! {
+    changes: PliantChanges as Kept;
 
-notes! {
     fn pliant_changes_update(
         pairs: *const u32,
         count: usize,

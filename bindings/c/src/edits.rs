@@ -2,14 +2,13 @@
 
 use crate::arrays::{PliantList, give, list, row};
 use crate::faces::PliantFaces;
+use crate::objects::{hand_out, held, take_back, uses};
 use crate::points::{Number, PliantPoints, positions};
 use crate::questions::PliantQuery;
-use crate::status::{
-    BUSY, NULL, OUTDATED_EDIT, PANIC, PliantError, PliantStatus, Refused, WRONG_LENGTH, call,
-};
+use crate::status::{OUTDATED_EDIT, Refused, WRONG_LENGTH};
 use crate::world::{AnyWorld, calls, with_world};
 use pliant::{BodyId, Edit, Edited, Fused, Piece, World};
-use std::sync::{Mutex, MutexGuard, TryLockError};
+use std::sync::Mutex;
 
 /// Changes of meshes, which the caller reads until the next.
 #[derive(Default)]
@@ -105,47 +104,9 @@ macro_rules! with_edit {
     };
 }
 
-/// The edit, unless it is NULL or another call is inside.
-///
-/// # Safety
-///
-/// It is NULL, or was made and is not freed.
-unsafe fn held<'e>(edit: *const PliantEdit) -> Result<MutexGuard<'e, AnyEdit>, Refused> {
-    // SAFETY: as above; an edit is only ever shared.
-    let Some(edit) = (unsafe { edit.as_ref() }) else {
-        let words = "edit is NULL; give one of pliant_world_edit";
-        return Err(Refused::new(NULL, words));
-    };
-    edit.0.try_lock().map_err(|why| match why {
-        TryLockError::WouldBlock => Refused::new(BUSY, "another call is inside this edit"),
-        TryLockError::Poisoned(_) => Refused::new(PANIC, "the edit is broken; free it"),
-    })
-}
+uses! {
+    edit: PliantEdit as AnyEdit;
 
-/// Steps of edits: name, arguments, and the call.
-macro_rules! steps {
-    ($(fn $name:ident($($argument:ident: $type:ty),* $(,)?) |$edit:ident| $work:block)*) => {
-        $(
-            #[doc = concat!("`", stringify!($name), "`.")]
-            ///
-            /// # Safety
-            ///
-            /// Pointers are NULL, or as the header says.
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn $name(
-                edit: *const PliantEdit,
-                $($argument: $type,)*
-                error: *mut PliantError,
-            ) -> PliantStatus {
-                let work = |$edit: &mut AnyEdit| $work;
-                // SAFETY: as the header says.
-                unsafe { call(error, || work(&mut *held(edit)?)) }
-            }
-        )*
-    };
-}
-
-steps! {
     fn pliant_edit_counts(body: *mut u32, triangles: *mut usize, vertices: *mut usize) |edit| {
         with_edit!(edit, edit => {
             // SAFETY: as the header says.
@@ -219,10 +180,8 @@ steps! {
 /// The edit is NULL, or was made, is not freed, and no call is inside.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pliant_edit_free(edit: *mut PliantEdit) {
-    if !edit.is_null() {
-        // SAFETY: it was made by a box, and nothing else refers to it.
-        drop(unsafe { Box::from_raw(edit) });
-    }
+    // SAFETY: as above.
+    unsafe { take_back(edit) };
 }
 
 fn add_vertices<S: Number>(edit: &mut Edit<S>, points: &PliantPoints) -> Result<u32, Refused> {
@@ -246,22 +205,20 @@ fn place<S: Number>(edit: &mut Edit<S>, vertex: u32, point: &PliantPoints) -> Re
 
 calls! {
     fn pliant_world_edit(body: u32, edit: *mut *mut PliantEdit) |inside| {
-        if edit.is_null() {
-            return Err(Refused::null("edit"));
-        }
-        let begun = match &inside.world {
-            AnyWorld::F32(world) => AnyEdit::F32(world.edit(BodyId(body))?),
-            AnyWorld::F64(world) => AnyEdit::F64(world.edit(BodyId(body))?),
+        let begin = || {
+            let begun = match &inside.world {
+                AnyWorld::F32(world) => AnyEdit::F32(world.edit(BodyId(body))?),
+                AnyWorld::F64(world) => AnyEdit::F64(world.edit(BodyId(body))?),
+            };
+            Ok(PliantEdit(Mutex::new(begun)))
         };
-        let begun = Box::new(PliantEdit(Mutex::new(begun)));
-        // SAFETY: it is not NULL, so it may be written.
-        unsafe { edit.write_unaligned(Box::into_raw(begun)) };
-        Ok(())
+        // SAFETY: as the header says.
+        unsafe { hand_out(edit, "edit", begin) }
     }
 
     fn pliant_world_apply(edit: *const PliantEdit, edited: *mut PliantEdited) |inside| {
         // SAFETY: as the header says.
-        let edit = unsafe { held(edit)? };
+        let edit = held(unsafe { edit.as_ref() }.map(|it| &it.0), "edit")?;
         let done = match (&mut inside.world, &*edit) {
             (AnyWorld::F32(world), AnyEdit::F32(edit)) => applied(world, edit)?,
             (AnyWorld::F64(world), AnyEdit::F64(edit)) => applied(world, edit)?,

@@ -5,6 +5,7 @@
 //! | file | what |
 //! |---|---|
 //! | `status` | statuses, errors, and what becomes of a panic |
+//! | `objects` | objects that the caller holds: made, used, freed |
 //! | `arrays` | arrays of numbers, read and written |
 //! | `points` | coordinates of the caller, wherever they lie |
 //! | `faces` | triangles of the caller, of indices of any size |
@@ -29,6 +30,7 @@ mod edits;
 mod faces;
 mod hits;
 mod looking;
+mod objects;
 mod options;
 mod pairs;
 mod points;

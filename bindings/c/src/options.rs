@@ -1,6 +1,7 @@
 //! Options of worlds, and whose threads work for them: their own, a pool's, or the caller's.
 
 use crate::arrays::give;
+use crate::objects::{hand_out, take_back};
 use crate::points::{F64, PliantScalar};
 use crate::status::{BAD_OPTION, OTHER, PliantError, PliantStatus, Refused, call};
 use pliant::{BroadPhase, Degree, Options, Partition, Scalar, Scheduler, Update, World};
@@ -169,25 +170,18 @@ pub unsafe extern "C" fn pliant_pool_new(
     pool: *mut *mut PliantPool,
     error: *mut PliantError,
 ) -> PliantStatus {
-    let work = || {
-        if pool.is_null() {
-            return Err(Refused::null("pool"));
-        }
+    let make = || {
         if threads == 0 {
             let words = "threads is 0; give a pool at least 1";
             return Err(Refused::new(BAD_OPTION, words));
         }
-        let threads = threads as usize;
-        let made = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let made = rayon::ThreadPoolBuilder::new().num_threads(threads as usize);
         let made = made.thread_name(|thread| format!("pliant {}", thread + 1));
         let made = made.build().map_err(|why| Refused::new(OTHER, why))?;
-        let made = Box::new(PliantPool(Arc::new(made)));
-        // SAFETY: it is not NULL, so it may be written.
-        unsafe { pool.write_unaligned(Box::into_raw(made)) };
-        Ok(())
+        Ok(PliantPool(Arc::new(made)))
     };
     // SAFETY: as the header says.
-    unsafe { call(error, work) }
+    unsafe { call(error, || hand_out(pool, "pool", make)) }
 }
 
 /// `pliant_pool_free`.
@@ -197,10 +191,8 @@ pub unsafe extern "C" fn pliant_pool_new(
 /// The pool is NULL, or was made and is not freed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pliant_pool_free(pool: *mut PliantPool) {
-    if !pool.is_null() {
-        // SAFETY: it was made by a box, and nothing else refers to it.
-        drop(unsafe { Box::from_raw(pool) });
-    }
+    // SAFETY: as above.
+    unsafe { take_back(pool) };
 }
 
 /// The caller's function that runs tasks.

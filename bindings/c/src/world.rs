@@ -1,6 +1,7 @@
 //! Worlds: how they are made, copied and freed. One call at a time is inside.
 
 use crate::hits::Columns;
+use crate::objects::{hand_out, take_back};
 use crate::options::PliantOptions;
 use crate::points::{F32, F64};
 use crate::status::{BAD_SCALAR, BUSY, NULL, PANIC, PliantError, PliantStatus, Refused, call};
@@ -75,8 +76,8 @@ const TAKEN: u8 = 1;
 const BROKEN: u8 = 2;
 
 impl PliantWorld {
-    fn new(world: AnyWorld, options: PliantOptions) -> *mut Self {
-        Box::into_raw(Box::new(Self {
+    fn new(world: AnyWorld, options: PliantOptions) -> Self {
+        Self {
             state: AtomicU8::new(FREE),
             inside: UnsafeCell::new(Inside {
                 world,
@@ -85,7 +86,7 @@ impl PliantWorld {
                 shown: Columns::default(),
                 views: Views::default(),
             }),
-        }))
+        }
     }
 }
 
@@ -176,10 +177,7 @@ pub unsafe extern "C" fn pliant_world_new(
     world: *mut *mut PliantWorld,
     error: *mut PliantError,
 ) -> PliantStatus {
-    let work = || {
-        if world.is_null() {
-            return Err(Refused::null("world"));
-        }
+    let make = || {
         // SAFETY: as the header says.
         let options = unsafe { options.as_ref() }.copied().unwrap_or_default();
         let made = match options.scalar {
@@ -194,35 +192,18 @@ pub unsafe extern "C" fn pliant_world_new(
                 ));
             }
         };
-        // SAFETY: it is not NULL, so it may be written.
-        unsafe { world.write(PliantWorld::new(made, options)) };
-        Ok(())
+        Ok(PliantWorld::new(made, options))
     };
     // SAFETY: as the header says.
-    unsafe { call(error, work) }
+    unsafe { call(error, || hand_out(world, "world", make)) }
 }
 
-/// `pliant_world_clone`.
-///
-/// # Safety
-///
-/// Pointers are NULL, or as the header says.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn pliant_world_clone(
-    world: *const PliantWorld,
-    copy: *mut *mut PliantWorld,
-    error: *mut PliantError,
-) -> PliantStatus {
-    let work = |inside: &mut Inside| {
-        if copy.is_null() {
-            return Err(Refused::null("copy"));
-        }
-        // SAFETY: it is not NULL, so it may be written.
-        unsafe { copy.write(PliantWorld::new(inside.world.clone(), inside.options)) };
-        Ok(())
-    };
-    // SAFETY: as the header says.
-    unsafe { inside(world, error, work) }
+calls! {
+    fn pliant_world_clone(copy: *mut *mut PliantWorld) |inside| {
+        let make = || Ok(PliantWorld::new(inside.world.clone(), inside.options));
+        // SAFETY: as the header says.
+        unsafe { hand_out(copy, "copy", make) }
+    }
 }
 
 /// `pliant_world_free`.
@@ -232,8 +213,6 @@ pub unsafe extern "C" fn pliant_world_clone(
 /// The world is NULL, or was made, is not freed, and no call is inside.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pliant_world_free(world: *mut PliantWorld) {
-    if !world.is_null() {
-        // SAFETY: it was made by a box, and nothing else refers to it.
-        drop(unsafe { Box::from_raw(world) });
-    }
+    // SAFETY: as above.
+    unsafe { take_back(world) };
 }

@@ -2,6 +2,7 @@
 
    With WITH_TOOLKIT it is compiled against the toolkit, and compared with its BruteForce, too. Else
    the folder stand_in has what is needed of it. Eigen must be installed. */
+#include "check.h"
 #include "pliant_ipc.hpp"
 
 #ifdef WITH_TOOLKIT
@@ -23,14 +24,6 @@
 #include <thread>
 #include <utility>
 #include <vector>
-
-#define CHECK(condition)                                                                           \
-    do {                                                                                           \
-        if (!(condition)) {                                                                        \
-            std::fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);           \
-            std::exit(1);                                                                          \
-        }                                                                                          \
-    } while (0)
 
 using Pair = std::pair<int, int>;
 using Pairs = std::vector<Pair>;

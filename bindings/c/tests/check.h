@@ -1,4 +1,4 @@
-/* What tests in C check with: a condition, or why a call was refused. The first that is not so ends
+/* What tests check with: a condition, or why a call was refused. The first that is not so ends
    the program. */
 #include "pliant.h"
 
@@ -14,7 +14,7 @@
         }                                                                                          \
     } while (0)
 
-static void refused(pliant_status status, const pliant_error *error, pliant_status expected,
+static inline void refused(pliant_status status, const pliant_error *error, pliant_status expected,
                     const char *words) {
     if (status != expected || error->status != expected || !strstr(error->message, words)) {
         fprintf(stderr, "%d, not %d; said: %s; not: %s\n", status, expected, error->message, words);

@@ -1,5 +1,6 @@
 /* Worlds and threads of C++: a scheduler of the application, worlds side by side, and one world for
    two threads. With TBB (WITH_TBB) and OpenMP (-fopenmp), theirs is the scheduler. C++17. */
+#include "check.h"
 #include "pliant.hpp"
 
 #ifdef WITH_TBB
@@ -13,14 +14,6 @@
 #include <cstdlib>
 #include <thread>
 #include <vector>
-
-#define CHECK(condition)                                                                           \
-    do {                                                                                           \
-        if (!(condition)) {                                                                        \
-            std::fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);           \
-            std::exit(1);                                                                          \
-        }                                                                                          \
-    } while (0)
 
 using Task = std::function<void(std::size_t)>;
 

@@ -1,4 +1,5 @@
 /* Worlds as classes: arrays of C++ and of Eigen's form, errors as exceptions, visitors. C++17. */
+#include "check.h"
 #include "pliant.hpp"
 
 #if __has_include(<Eigen/Core>)
@@ -11,14 +12,6 @@
 #include <cstdlib>
 #include <string>
 #include <vector>
-
-#define CHECK(condition)                                                                           \
-    do {                                                                                           \
-        if (!(condition)) {                                                                        \
-            std::fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);           \
-            std::exit(1);                                                                          \
-        }                                                                                          \
-    } while (0)
 
 /* What Eigen's matrices have: columns behind each other. */
 template <class T> struct Matrix {

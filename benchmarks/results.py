@@ -20,6 +20,7 @@ stands for the date in names of records:
     $P ../compare_codim_with_ipctk.py > codim-ipctk-DATE.txt
     $P ../compare_distance_with_fcl.py > close-fcl-DATE.txt
     cargo run --release -p pliant-bench --features peers --example edits > edits-DATE.txt
+    $P ../compare_adapter_with_ipctk.py --program PROGRAM --rounds 9 > adapter-ipctk-DATE.txt
     cargo run --release -p pliant-c --example cost > c-DATE.txt
     python3 ../results.py DATE
 """
@@ -283,6 +284,7 @@ def page(record, date):
     near_aims = near_record.claims("near")
     ipctk, header, beside = beside_ipctk()
     codim, codim_header, codim_found = beside_ipctk_codimensional()
+    adapter, adapter_header, adapter_found = beside_ipctk_adapter()
     from_c, from_c_header, from_c_rows = beside_rust()
     close = newest("close-*.json")
     close_record = Record(close)
@@ -381,6 +383,8 @@ random cables, nets, clouds and sheets):
 of edges and vertices, {codim_found["vv"]} of vertices. All are ours, too; \
 {codim_found["its_alone"]} are its alone. Distances of
 {codim_found["close"]} close pairs agree.
+
+The broad phase for ipc-toolkit, from C++ ([record](records/{adapter}); {adapter_header}; `benchmarks/compare_adapter_with_ipctk.py`): {adapter_found}
 
 ## From C
 
@@ -562,6 +566,27 @@ def beside_ipctk_codimensional():
     # The last row is of all scenes.
     found = dict(zip(names, lines[-1].split()[1:]))
     assert found["its_alone"] == found["errors"] == "0", file
+    return file.name, lines[0], found
+
+
+def beside_ipctk_adapter():
+    """Newest comparison of the adapter with ipctk: its name, header, and totals in words."""
+    file = newest("adapter-ipctk-*.txt")
+    lines = file.read_text().splitlines()
+    rows, more, factors = 0, 0, []
+    for line in lines:
+        words = re.search(r"([\d,]+) +([\d,]+) +0   adapter ([\d.]+) ms, .* ([\d.]+) ms", line)
+        if words:
+            _, alone, adapter, own = words.groups()
+            rows += 1
+            more += int(alone.replace(",", ""))
+            factors.append(float(adapter) / float(own))
+    assert rows and lines[-1].endswith("errors: 0"), file
+    found = (
+        f"on the {rows} rows above no pair is its alone, and {more:,} are ipctk's, within its "
+        f"rounding.\nIt takes {min(factors):.2f} to {max(factors):.2f} times as long as the lists "
+        "themselves, with the toolkit's objects made of them."
+    )
     return file.name, lines[0], found
 
 

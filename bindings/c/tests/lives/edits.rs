@@ -22,7 +22,7 @@ impl Followed {
                 assert_eq!(
                     pliant_changes_new(elements, &raw mut changes, null_mut()),
                     0
-                )
+                );
             };
             changes
         });

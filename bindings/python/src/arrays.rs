@@ -268,22 +268,22 @@ pub(crate) fn edges_and_points(
     Ok(triangles)
 }
 
-/// Copies a (k, 4, 3) array of float32 or float64: four corners of each pair of elements.
-pub(crate) fn pairs_of_elements(given: &Any<'_>) -> Result<Vec<[[f64; 3]; 4]>> {
+/// Copies a (k, C, 3) array of float32 or float64: the corners of each pair.
+pub(crate) fn corners_of_pairs<const C: usize>(given: &Any<'_>) -> Result<Vec<[[f64; 3]; C]>> {
     let py = given.py();
     refuse_masks(given, "corners")?;
     let array = as_numpy(given, "corners")?;
     let shape = array.getattr(intern!(py, "shape"))?;
-    if !matches!(shape.extract::<Vec<usize>>()?[..], [_, 4, 3]) {
+    if !matches!(shape.extract::<Vec<usize>>()?[..], [_, corners, 3] if corners == C) {
         return Err(refused!(BadArray:
-            "corners have shape {shape}; it must be (k, 4, 3): four corners of each pair"));
+            "corners have shape {shape}; it must be (k, {C}, 3): {C} corners of each pair"));
     }
     let rows = array.call_method1(intern!(py, "reshape"), (-1, 3))?;
     let rows = rows.cast_into::<PyUntypedArray>().map_err(PyErr::from)?;
     let copied = CopiedCoordinates::anew(Coordinates::of_array(&rows, "corners")?)?;
     let mut wide = Vec::new();
     let rows = double(copied.get()?, &mut wide);
-    let (pairs, _) = rows.as_chunks::<4>();
+    let (pairs, _) = rows.as_chunks::<C>();
     Ok(pairs.to_vec())
 }
 

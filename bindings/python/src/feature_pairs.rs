@@ -38,16 +38,16 @@ pub(crate) fn feature_pairs<'py>(
     let contacts = world.state.with(py, |state| {
         interruptible(|question| {
             let mut contacts = pliant::FeaturePairs::new();
-            with_world!(&mut state.world, world => {
-                contacts.ask(world, (of.0, distance), Some(question))?;
+            let asked = with_world!(&mut state.world, world => {
+                contacts.ask(world, (of.0, distance), Some(question))
             });
-            Ok(Vec::from(contacts))
+            asked.map(|()| Vec::from(contacts))
         })
         .map_err(|refused| refused.distance_is("distance"))
     })?;
     let column = |of: fn(&FeaturePair) -> f64| contacts.iter().map(of).collect();
     Ok(named!(py, "FeaturePairs":
-        kind = Column(contacts.iter().map(kind).collect::<Vec<u8>>()),
+        kind = Column(contacts.iter().map(|it| number_of(it.features)).collect::<Vec<u8>>()),
         bodies = Rows(contacts.iter().map(|it| it.bodies.map(|body| body.0)).collect()),
         numbers = Rows(contacts.iter().map(|it| it.numbers).collect()),
         vertices = Rows(contacts.iter().map(|it| it.vertices).collect()),
@@ -58,8 +58,8 @@ pub(crate) fn feature_pairs<'py>(
 }
 
 /// Number of a kind, in the order of rows.
-fn kind(contact: &FeaturePair) -> u8 {
-    match contact.features {
+pub(crate) fn number_of(features: ClosestFeatures) -> u8 {
+    match features {
         ClosestFeatures::VertexVertex => 0,
         ClosestFeatures::VertexEdge => 1,
         ClosestFeatures::EdgeEdge => 2,

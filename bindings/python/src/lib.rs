@@ -23,7 +23,7 @@
 //! | `world.rs` | `World`, method by method |
 //! | `curves.rs` | segments and curves in which listed pairs meet |
 //! | `feature_pairs.rs` | each contact of close elements once |
-//! | `pair_impacts.rs` | times of impact of single pairs of elements |
+//! | `pairs.rs` | single pairs: impacts, distances, contacts |
 //! | `one_liners.rs` | intersections of meshes in one call, and `pliant.reference` |
 //! | `usd.rs` | USD files, which Python evaluates |
 //! | `check.rs` | files, frame by frame |
@@ -44,7 +44,7 @@ mod error;
 mod feature_pairs;
 mod one_liners;
 mod options;
-mod pair_impacts;
+mod pairs;
 mod pickled;
 mod queries;
 mod selection;
@@ -70,7 +70,10 @@ mod _pliant {
             intersection_pairs, reference_intersection_pairs, reference_self_intersection_pairs,
             self_intersection_pairs,
         },
-        pair_impacts::{edge_edge_impacts, vertex_triangle_impacts},
+        pairs::{
+            edge_edge_distances, edge_edge_impacts, triangle_contacts, vertex_triangle_distances,
+            vertex_triangle_impacts,
+        },
         queries::close::CloseQuery,
         queries::contacts::ContactQuery,
         queries::impacts::ImpactQuery,

@@ -73,8 +73,8 @@ def test_worlds_and_queries_have_the_methods_of_the_rust_librarys() -> None:
     # What may be interrupted has the names of what it is.
     others = source_of().replace(source_of("interruptible.rs"), "")
     assert public_methods(source_of("interruptible.rs")) - {"interruptible"} < public_methods(others)
-    # A pool of threads is nothing of Python's, what makes a world has one name there, and signals interrupt it.
-    of_world -= {"new", "with_options", "with_pool", "interruptible"}
+    # A pool or scheduler of threads is nothing of Python's, what makes a world has one name there, and signals interrupt it.
+    of_world -= {"new", "with_options", "with_pool", "with_scheduler", "interruptible"}
     assert of_class(pliant.World) == of_world | {"dtype"}
     # How much is wanted at most, how wide intervals are and of which kind, are arguments, and what interrupts a query are signals.
     of_query -= {"at_most", "interrupt_if", "width", "only"}

@@ -13,6 +13,8 @@ A hit is a row of four numbers, uint32: body, triangle, body, triangle. Rows are
   self_intersection_pairs   one mesh, in one call
   intersection_pairs        two meshes, in one call
   vertex_triangle_impacts, edge_edge_impacts    when single pairs of moving elements meet
+  vertex_triangle_distances, edge_edge_distances    how far single pairs are apart
+  triangle_contacts         whether and how single pairs of triangles intersect
   segments, curves          where listed pairs meet
   feature_pairs             each contact of close elements once, as solvers sum it
   Changes                   hits that began, persist and ended since the last list
@@ -43,11 +45,14 @@ from ._pliant import (
     __version__,
     check,
     curves,
+    edge_edge_distances,
     edge_edge_impacts,
     feature_pairs,
     intersection_pairs,
     segments,
     self_intersection_pairs,
+    triangle_contacts,
+    vertex_triangle_distances,
     vertex_triangle_impacts,
 )
 from ._types import (
@@ -82,6 +87,7 @@ from ._types import (
     Mesh,
     OpenMesh,
     Pair,
+    PairDistances,
     Piece,
     Place,
     Segments,
@@ -129,6 +135,7 @@ __all__ = [
     "Mesh",
     "OpenMesh",
     "Pair",
+    "PairDistances",
     "Piece",
     "Place",
     "Query",
@@ -143,11 +150,14 @@ __all__ = [
     "check",
     "curves",
     "derivatives",
+    "edge_edge_distances",
     "edge_edge_impacts",
     "feature_pairs",
     "intersection_pairs",
     "reference",
     "segments",
     "self_intersection_pairs",
+    "triangle_contacts",
+    "vertex_triangle_distances",
     "vertex_triangle_impacts",
 ]

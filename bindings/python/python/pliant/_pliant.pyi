@@ -45,6 +45,7 @@ from ._types import (
     Mesh,
     OpenMesh,
     Pair,
+    PairDistances,
     Piece,
     Segments,
     Statistics,
@@ -66,6 +67,7 @@ __all__ = [
     "__version__",
     "check",
     "curves",
+    "edge_edge_distances",
     "edge_edge_impacts",
     "feature_pairs",
     "intersection_pairs",
@@ -73,6 +75,8 @@ __all__ = [
     "reference_self_intersection_pairs",
     "segments",
     "self_intersection_pairs",
+    "triangle_contacts",
+    "vertex_triangle_distances",
     "vertex_triangle_impacts",
 ]
 
@@ -505,3 +509,11 @@ def edge_edge_impacts(
 ) -> tuple[NDArray[np.bool_], NDArray[np.float64], NDArray[np.float64]]:
     """When edges meet moving edges, pair by pair, without a world: (hit, low, high)."""
 
+def vertex_triangle_distances(corners: _Array) -> PairDistances:
+    """How far vertices and triangles are apart, pair by pair, without a world: a PairDistances."""
+
+def edge_edge_distances(corners: _Array) -> PairDistances:
+    """How far edges are apart, pair by pair, without a world: a PairDistances."""
+
+def triangle_contacts(corners: _Array) -> NDArray[np.int8]:
+    """Whether and how triangles intersect, pair by pair, without a world: (k,) int8."""

@@ -265,6 +265,19 @@ class FeaturePairs(NamedTuple):
     """(k,): how many rows of both lists of close pairs each stands for."""
 
 
+class PairDistances(NamedTuple):
+    """How far elements are apart, a row a pair: see vertex_triangle_distances."""
+
+    distance: NDArray[np.float64]
+    """(k,): 0 exactly if they touch."""
+    direction: NDArray[np.float64]
+    """(k, 3): unit vector from the second element to the first; 0 if they touch."""
+    weights: NDArray[np.float64]
+    """(k, 4): of the corners in the closest points. Those of either element sum to 1, rounded."""
+    kind: NDArray[np.uint8]
+    """(k,): a FeatureKind each, from the weights that are above 0, which are rounded."""
+
+
 class ContactKind(IntEnum):
     """How two triangles intersect, decided exactly: touching, overlapping or crossing."""
 
@@ -709,7 +722,7 @@ class OpenMesh(Protocol):
 
 
 _PUBLIC = (
-    *(Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, FeatureKind, FeaturePairs, HitRows, Contact, ContactKind, Contacts),
+    *(Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, FeatureKind, FeaturePairs, PairDistances, HitRows, Contact, ContactKind, Contacts),
     *(CrossingEdge, Segments, CurveEnd, Curves, Changed, Edited, Fused, Piece, Impact, Impacts, FreeStep, TreeBoxes, TreeShape, Statistics),
     *(Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Adjacent, CrossingEdges, Frame, Mesh, OpenMesh),
 )

@@ -42,10 +42,10 @@ int main(void) {
         return 1;
     }
     int count = 0, first = -1;
-    for (int pair = 0; pair < PAIRS; pair++) {
-        if (hit[pair]) {
+    for (int place = 0; place < PAIRS; place++) {
+        if (hit[place]) {
             count++;
-            first = first < 0 || high[pair] < high[first] ? pair : first;
+            first = first < 0 || high[place] < high[first] ? place : first;
         }
     }
     printf("%d of %d pairs meet", count, PAIRS);

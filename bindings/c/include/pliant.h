@@ -3,10 +3,10 @@
    Every function that can be refused returns a status, PLIANT_OK or another, and says more in
    `error`, unless that is NULL; `error` is written only then. A refused call changes nothing but
    what it was to write. Nothing is printed, but by PLIANT_PANIC, and no state is global. No
-   exception leaves a function.
+   exception leaves a function. A process that has no memory left ends.
 
-   Arrays of numbers are read and written during the call only, and need no alignment. Other threads
-   may read them at the time.
+   Arrays and structures are read and written during the call only, and need no alignment. Other
+   threads may read them at the time. Counts above UINT32_MAX are PLIANT_TOO_LARGE.
 
    Structures may grow until version 1: compile with the header of the library that you run. */
 #ifndef PLIANT_H
@@ -33,15 +33,15 @@ typedef int32_t pliant_status;
 enum {
     PLIANT_OK = 0,
     PLIANT_NULL = 1,                 /* a pointer is NULL that may not be */
-    PLIANT_BAD_SCALAR = 2,           /* a pliant_scalar that is none, or not that of the others */
+    PLIANT_BAD_SCALAR = 2,           /* an unknown pliant_scalar, or not that of the others */
     PLIANT_PANIC = 3,                /* a fault of the library, which is worth a report */
     PLIANT_OTHER = 4,                /* a reason that this version has no number for */
-    PLIANT_BAD_INDEX = 5,            /* indices of a size that is none */
-    PLIANT_BAD_OPTION = 6,           /* an option, selection or choice that is none */
+    PLIANT_BAD_INDEX = 5,            /* indices of an unknown size */
+    PLIANT_BAD_OPTION = 6,           /* an unknown option, selection or choice */
     PLIANT_WOULD_ROUND = 7,          /* positions of double precision for a world of single */
     PLIANT_BUSY = 8,                 /* another call is inside the world */
     PLIANT_DIFFERENT_COUNTS = 10,    /* arrays of one call have different counts */
-    PLIANT_BAD_CORNER = 11,          /* a coordinate of a pair: as PLIANT_BAD_POSITION */
+    PLIANT_BAD_CORNER = 11,          /* a coordinate: as PLIANT_BAD_POSITION, _NEEDS_SUBNORMALS */
     PLIANT_BAD_WIDTH = 12,           /* a width is negative, infinite or NaN */
     PLIANT_NO_SUCH_BODY = 20,        /* the world has no such body, or has it no more */
     PLIANT_SAME_BODY = 21,           /* one body is given as two */
@@ -173,7 +173,8 @@ enum {
 /* How far vertices and triangles are apart, and where they are closest.
 
    `corners` are 4 points: the vertex, and the corners of the triangle. `distance` is off by at most
-   2^-30 of itself and 2^-1074, and 0 exactly if they touch. `direction`, 3 numbers a pair, is the
+   2^-30 of itself and 2^-1074, and 0 exactly if they touch. A thread that flushes subnormal numbers
+   gets at least 2^-1022 else. `direction`, 3 numbers a pair, is the
    unit vector from the triangle to the vertex, and 0 if they touch. `weights`, 4 numbers a pair,
    are of the corners in the closest points: 1, and three that sum to 1. `features` says which are
    above 0.
@@ -272,7 +273,7 @@ pliant_status pliant_world_clone(const pliant_world *world, pliant_world **copy,
 /* Frees a world, in which there must be no call. NULL is fine. */
 void pliant_world_free(pliant_world *world);
 
-/* The options that a world was made with. */
+/* The options that a world was made with, but no pool and no parallel_for. */
 pliant_status pliant_world_options(const pliant_world *world, pliant_options *options,
                                    pliant_error *error);
 
@@ -290,7 +291,7 @@ pliant_status pliant_world_remove(pliant_world *world, uint32_t body, pliant_err
 
 /* Gives a body another shape, a point for each vertex. A motion ends. PLIANT_NO_SUCH_BODY,
    PLIANT_BAD_SCALAR, PLIANT_WOULD_ROUND, PLIANT_WRONG_LENGTH, PLIANT_BAD_POSITION,
-   PLIANT_NEEDS_SUBNORMALS. O(n). */
+   PLIANT_NEEDS_SUBNORMALS, PLIANT_OUTSIDE_LOOSE_BOX. O(n). */
 pliant_status pliant_world_set_positions(pliant_world *world, uint32_t body,
                                          pliant_points positions, pliant_error *error);
 
@@ -318,7 +319,7 @@ pliant_status pliant_world_set_rest_positions(pliant_world *world, uint32_t body
                                               const pliant_points *positions, pliant_error *error);
 
 /* Gives a body another mesh at these positions, and keeps its number. Statuses as of
-   pliant_world_add, and PLIANT_NO_SUCH_BODY. */
+   pliant_world_add, PLIANT_NO_SUCH_BODY and PLIANT_OUTSIDE_LOOSE_BOX. */
 pliant_status pliant_world_set_mesh(pliant_world *world, uint32_t body, pliant_faces faces,
                                     pliant_points positions, pliant_error *error);
 
@@ -424,15 +425,16 @@ typedef struct pliant_hits {
 typedef struct pliant_query {
     pliant_selection of;
     uint8_t how;      /* PLIANT_ALL to PLIANT_PREPARE */
-    uint64_t at_most; /* most hits of a list, else PLIANT_TOO_MANY_HITS; 0: any number */
-    /* Is shown every hit once, some at a time, instead of a list; ends the question by another
-       number than 0. The hits are there during the call. NULL: no visitor. */
+    uint64_t at_most; /* most hits of a list, else PLIANT_TOO_MANY_HITS; 0: any, as of a visit */
+    /* Is shown every hit once, some at a time, instead of a list. Another number than 0 ends the
+       question. The calling thread calls it, with hits that are there during the call. Groups and
+       order do not depend on threads. NULL: no visitor. */
     int (*visit)(void *user, const pliant_hits *some);
     /* Ends the question early by another number than 0. Any thread of the world may call it,
-       several at a time, and nearly always does every 10 milliseconds; Rust's document of
+       several at a time. It nearly always does every 10 milliseconds; Rust's document of
        Query::interrupt_if names what takes longer. NULL: never. */
     int (*interrupt)(void *user);
-    void *user; /* given to both */
+    void *user; /* given to both, which no exception and no longjmp may leave */
 } pliant_query;
 enum {
     PLIANT_ALL = 0,      /* all hits, sorted; the only one with a visitor */
@@ -500,7 +502,7 @@ pliant_status pliant_world_edge_edge_impacts(pliant_world *world, const pliant_q
 
 /* ---- Questions with one answer --------------------------------------------------------------
 
-   Of `query` they read `of`, `interrupt` and `user`; all else must be 0. Distances read no `of`.
+   Of `query` they read `of`, `interrupt` and `user`, distances not `of`; all else must be 0.
    Views are valid until the same function is called again with the world, or it is freed. All may
    return PLIANT_NO_SUCH_BODY, PLIANT_SAME_BODY, PLIANT_BAD_OPTION, PLIANT_INTERRUPTED. */
 
@@ -579,9 +581,9 @@ pliant_status pliant_world_feature_pairs(pliant_world *world, const pliant_query
    Views are valid as those above. PLIANT_NO_SUCH_BODY, PLIANT_NO_SUCH_TRIANGLE,
    PLIANT_EMPTY_TRIANGLE. */
 
-/* Feature of a triangle: PLIANT_CORNER + 0, 1, 2, PLIANT_EDGE + 0, 1, 2, or PLIANT_INSIDE. Edge k
-   begins at corner k. */
-enum { PLIANT_CORNER = 0, PLIANT_EDGE = 3, PLIANT_INSIDE = 6 };
+/* Feature of a triangle: PLIANT_ON_CORNER + 0, 1, 2, PLIANT_ON_EDGE + 0, 1, 2, or PLIANT_INSIDE.
+   Edge k begins at corner k. */
+enum { PLIANT_ON_CORNER = 0, PLIANT_ON_EDGE = 3, PLIANT_INSIDE = 6 };
 
 /* A point, a segment or a polygon for each pair. An end is exactly on the features that are said;
    its point is rounded. */
@@ -599,7 +601,7 @@ pliant_status pliant_world_segments(pliant_world *world, const uint32_t *pairs, 
 
 /* Segments linked to curves, by the features of their ends alone. Give every pair once; for curves
    of a body with itself those of pliant_world_adjacent_intersections, too. `areas` is 1 for areas,
-   which take O(m + n) a curve. */
+   which take O(m + n) a curve, else 0. PLIANT_BAD_OPTION. */
 typedef struct pliant_curves {
     pliant_segments segments;
     size_t count;             /* of curves */
@@ -629,7 +631,8 @@ pliant_status pliant_world_curves(pliant_world *world, const uint32_t *pairs, si
    An edit is a list of steps for one body, applied all at once or not at all. Numbers stay: what
    goes leaves its number empty, what comes is numbered behind all others. A step says nothing yet;
    pliant_world_apply refuses what cannot be. Into one edit goes one call at a time, else
-   PLIANT_BUSY. Views of this section are valid until the next call of it that changes the world. */
+   PLIANT_BUSY. What pliant_edited, pliant_piece and pliant_fused show is valid until the next
+   apply, weld, split or fuse of the world, or until it is freed. */
 typedef struct pliant_edit pliant_edit;
 
 /* Begins an edit, to be freed by pliant_edit_free. PLIANT_NO_SUCH_BODY. */
@@ -680,12 +683,14 @@ typedef struct pliant_edited {
 
 /* Applies an edit of this world. PLIANT_OUTDATED_EDIT, PLIANT_NO_SUCH_BODY, and what a step cannot
    do: PLIANT_NO_SUCH_TRIANGLE to PLIANT_NOT_A_CORNER, PLIANT_VERTEX_OUT_OF_RANGE,
-   PLIANT_BAD_POSITION, PLIANT_NO_TRIANGLES, PLIANT_TOO_LARGE, PLIANT_OUTSIDE_LOOSE_BOX. */
+   PLIANT_BAD_POSITION, PLIANT_NEEDS_SUBNORMALS, PLIANT_NO_TRIANGLES, PLIANT_TOO_LARGE,
+   PLIANT_OUTSIDE_LOOSE_BOX. */
 pliant_status pliant_world_apply(pliant_world *world, const pliant_edit *edit,
                                  pliant_edited *edited, pliant_error *error);
 
-/* Makes vertices of boundary edges one where the edges coincide within a tolerance. Of `query` only
-   the interrupt is read. PLIANT_NO_SUCH_BODY, PLIANT_BAD_DISTANCE, PLIANT_INTERRUPTED. */
+/* Makes vertices of boundary edges one where the edges coincide within a tolerance. Of `query`
+   it reads `interrupt` and `user`; how, at_most and visit must be 0. PLIANT_NO_SUCH_BODY,
+   PLIANT_BAD_DISTANCE, PLIANT_BAD_OPTION, PLIANT_INTERRUPTED. */
 pliant_status pliant_world_weld(pliant_world *world, uint32_t body, double tolerance,
                                 const pliant_query *query, pliant_edited *edited,
                                 pliant_error *error);
@@ -706,8 +711,8 @@ typedef struct pliant_fused {
     pliant_list triangles, vertices;
 } pliant_fused;
 
-/* Puts body `b` into body `a`, and removes it. PLIANT_NO_SUCH_BODY, PLIANT_SAME_BODY,
-   PLIANT_TOO_LARGE. */
+/* Puts body `b` into body `a`, and removes it. Unless both have a loose box, `a` then has none.
+   PLIANT_NO_SUCH_BODY, PLIANT_SAME_BODY, PLIANT_TOO_LARGE. */
 pliant_status pliant_world_fuse(pliant_world *world, uint32_t a, uint32_t b, pliant_fused *fused,
                                 pliant_error *error);
 
@@ -742,8 +747,8 @@ typedef struct pliant_changed {
 pliant_status pliant_changes_update(pliant_changes *changes, const uint32_t *pairs, size_t count,
                                     pliant_changed *changed, pliant_error *error);
 
-/* Tell it of every edit, split and fusion between two lists; of edges, rows of 2 vertices before
-   and after an edit. */
+/* Tell it of every edit, split and fusion between two lists. Of edges it takes rows of 2 vertices,
+   before an edit and after; copy the list of pliant_world_edges before you ask for it again. */
 pliant_status pliant_changes_edited(pliant_changes *changes, uint32_t body,
                                     const pliant_edited *edited, pliant_error *error);
 pliant_status pliant_changes_edges_edited(pliant_changes *changes, uint32_t body,
@@ -757,8 +762,8 @@ pliant_status pliant_changes_fused(pliant_changes *changes, uint32_t body, uint3
 
 /* ---- What a world has ------------------------------------------------------------------------
 
-   A list is valid until the same function is called again with the world, or it is freed. All but
-   those without a body may return PLIANT_NO_SUCH_BODY. */
+   A list is valid until the same function is called again with the world, for whatever body, or it
+   is freed. All but those without a body may return PLIANT_NO_SUCH_BODY. */
 
 /* All bodies, ascending. */
 pliant_status pliant_world_bodies(const pliant_world *world, pliant_list *bodies,
@@ -805,7 +810,8 @@ pliant_status pliant_world_environment(const pliant_world *world, uint32_t body,
 pliant_status pliant_world_ignored(const pliant_world *world, pliant_list *pairs,
                                    pliant_error *error);
 
-/* What pliant_world_set_labels has set: none if there are no labels or neighbours. */
+/* What pliant_world_set_labels has set; NULL for no labels, or for neighbours that were not given.
+   An empty list of neighbours is not NULL. */
 pliant_status pliant_world_labels(const pliant_world *world, uint32_t body, pliant_list *labels,
                                   pliant_list *neighbours, pliant_error *error);
 

@@ -3,7 +3,10 @@
    A refused call throws pliant::Error, which has the facts of pliant_error; the world is as it was.
    With PLIANT_NO_EXCEPTIONS it ends the program with the message; call pliant.h for statuses.
    Arrays are taken from anything that has data() and size(), or rows() and cols(): std::vector of
-   std::array<double, 3>, Eigen::MatrixXd, Eigen::Ref, Eigen::Map. Eigen is not included. */
+   std::array<double, 3>, flat vectors of three numbers a row, Eigen::MatrixXd, Eigen::Ref,
+   Eigen::Map. Eigen is not included. Of an expression of Eigen give its .eval().
+
+   Hits and other views are valid as pliant.h says; lists of numbers and positions are copies. */
 #ifndef PLIANT_HPP
 #define PLIANT_HPP
 
@@ -37,7 +40,11 @@ public:
 /* Items that lie behind each other and belong to somebody else. */
 template <class T> class View {
 public:
+    using value_type = T;
+
     View(const T *data, std::size_t size) : data_(data), size_(size) {}
+
+    bool empty() const { return size_ == 0; }
 
     const T *data() const { return data_; }
     std::size_t size() const { return size_; }
@@ -67,17 +74,16 @@ inline void check(pliant_status status, const pliant_error &error) {
     }
 }
 
-/* Arrays whose lengths do not fit each other. */
-inline void check_lengths(std::size_t first, std::size_t second) {
-    if (first != second) {
+/* Refuses an array of another form: a count beside the one that is right. */
+inline void check_count(std::size_t count, std::size_t right, const char *words) {
+    if (count != right) {
         pliant_error error{};
         error.status = PLIANT_DIFFERENT_COUNTS;
         error.body = error.triangle = error.vertex = UINT32_MAX;
         error.pair = UINT64_MAX;
-        error.limit = first;
-        error.count = second;
-        std::snprintf(error.message, sizeof error.message, "%zu rows beside %zu; give as many",
-                      second, first);
+        error.limit = right;
+        error.count = count;
+        std::snprintf(error.message, sizeof error.message, words, count, right);
         refuse(error);
     }
 }
@@ -106,18 +112,68 @@ template <class A> auto rows_of(const A &array) {
         using S = std::remove_cv_t<std::remove_reference_t<decltype(*array.data())>>;
         const std::ptrdiff_t size = sizeof(S);
         if (array.rows() != 0) {
-            check_lengths(3, static_cast<std::size_t>(array.cols()));
+            check_count(static_cast<std::size_t>(array.cols()), 3,
+                        "an array has %zu columns; give %zu, or the transpose");
         }
         return Rows<S>{array.data(), static_cast<std::size_t>(array.rows()),
                        array.rowStride() * size, array.colStride() * size};
     } else {
-        /* Rows of three numbers, as std::array<double, 3> has them. */
         using R = std::remove_cv_t<std::remove_reference_t<decltype(*array.data())>>;
-        using S = std::remove_cv_t<std::remove_reference_t<decltype(std::declval<R &>()[0])>>;
-        static_assert(sizeof(R) >= 3 * sizeof(S), "rows have three numbers");
-        return Rows<S>{reinterpret_cast<const S *>(array.data()), array.size(),
-                       static_cast<std::ptrdiff_t>(sizeof(R)), sizeof(S)};
+        const std::size_t count = array.size();
+        if constexpr (std::is_arithmetic_v<R>) {
+            check_count(count % 3, 0, "a flat array has %zu numbers beyond rows of 3; give %zu");
+            return Rows<R>{array.data(), count / 3, 3 * sizeof(R), sizeof(R)};
+        } else {
+            /* Rows of three numbers, as std::array<double, 3> has them. */
+            using S = std::remove_cv_t<std::remove_reference_t<decltype(std::declval<R &>()[0])>>;
+            static_assert(sizeof(R) >= 3 * sizeof(S) && std::is_trivially_destructible_v<R>,
+                          "rows hold three numbers themselves, as std::array<double, 3> does");
+            const S *first = count == 0 ? nullptr : &array.data()[0][0];
+            if (count != 0) {
+                /* Not somewhere else. */
+                const auto from = reinterpret_cast<std::uintptr_t>(array.data());
+                const auto at = reinterpret_cast<std::uintptr_t>(first);
+                const bool holds = at >= from && at + 3 * sizeof(S) <= from + sizeof(R);
+                check_count(holds ? 1 : 0, 1, "rows hold %zu of three numbers; they must (%zu)");
+            }
+            return Rows<S>{first, count, static_cast<std::ptrdiff_t>(sizeof(R)), sizeof(S)};
+        }
     }
+}
+
+/* Numbers of an array with an index, wherever they lie: std::vector, a column of Eigen's. */
+template <class T, class A> std::vector<T> flat(const A &array) {
+    using Size = decltype(array.size());
+    std::vector<T> all;
+    all.reserve(static_cast<std::size_t>(array.size()));
+    for (Size place = 0; place < array.size(); place++) {
+        static_assert(std::is_integral_v<std::decay_t<decltype(array[place])>> ||
+                          !std::is_integral_v<T>,
+                      "these are integers");
+        all.push_back(static_cast<T>(array[place]));
+    }
+    return all;
+}
+
+/* Pairs of vertices: rows as std::array<int, 2>, or a matrix of Eigen's with two columns. */
+template <class A> std::vector<std::array<std::uint32_t, 2>> pairs_of(const A &array) {
+    std::vector<std::array<std::uint32_t, 2>> all;
+    if constexpr (has_rows<A>::value) {
+        if (array.rows() != 0) {
+            check_count(static_cast<std::size_t>(array.cols()), 2,
+                        "an array of edges has %zu columns; give %zu");
+        }
+        for (auto row = array.rows() * 0; row < array.rows(); row++) {
+            all.push_back({static_cast<std::uint32_t>(array(row, 0)),
+                           static_cast<std::uint32_t>(array(row, 1))});
+        }
+    } else {
+        for (const auto &row : array) {
+            static_assert(sizeof(row) == 2 * sizeof(row[0]), "edges have two vertices");
+            all.push_back({static_cast<std::uint32_t>(row[0]), static_cast<std::uint32_t>(row[1])});
+        }
+    }
+    return all;
 }
 
 } // namespace detail
@@ -211,12 +267,12 @@ public:
     /* Numbers of the first of what is new. */
     template <class P> std::uint32_t add_vertices(const P &positions) {
         std::uint32_t first = 0;
-        call(pliant_edit_add_vertices, points(positions), &first);
+        call(pliant_edit_add_vertices, pliant::points(positions), &first);
         return first;
     }
     template <class F> std::uint32_t add_triangles(const F &triangles) {
         std::uint32_t first = 0;
-        call(pliant_edit_add_triangles, faces(triangles), &first);
+        call(pliant_edit_add_triangles, pliant::faces(triangles), &first);
         return first;
     }
     template <class S> void place_vertex(std::uint32_t vertex, const std::array<S, 3> &point) {
@@ -224,9 +280,9 @@ public:
         call(pliant_edit_place_vertex, vertex, at);
     }
     template <class A> std::uint32_t split_vertex(std::uint32_t vertex, const A &triangles) {
+        const auto of = detail::flat<std::uint32_t>(triangles);
         std::uint32_t made = 0;
-        call(pliant_edit_split_vertex, vertex, triangles.data(), std::size_t(triangles.size()),
-             &made);
+        call(pliant_edit_split_vertex, vertex, of.data(), of.size(), &made);
         return made;
     }
     void merge_vertices(std::uint32_t kept, std::uint32_t gone) {
@@ -236,7 +292,8 @@ public:
         call(pliant_edit_set_triangle, triangle, corners.data());
     }
     template <class A> void remove_triangles(const A &triangles) {
-        call(pliant_edit_remove_triangles, triangles.data(), std::size_t(triangles.size()));
+        const auto gone = detail::flat<std::uint32_t>(triangles);
+        call(pliant_edit_remove_triangles, gone.data(), gone.size());
     }
 
 private:
@@ -259,7 +316,8 @@ inline pliant_options default_options() {
     return options;
 }
 
-/* A world; it moves, and is copied by clone(). Hits are views, as pliant.h says. */
+/* A world; it moves, and is copied by clone(). Hits are views, as pliant.h says. One call at a time
+   is inside, const or not. */
 class World {
 public:
     /* A scheduler, if one is given, takes at most options.threads tasks at a time. */
@@ -287,29 +345,29 @@ public:
 
     template <class F, class P> std::uint32_t add(const F &triangles, const P &positions) {
         std::uint32_t body = 0;
-        call(pliant_world_add, faces(triangles), points(positions), &body);
+        call(pliant_world_add, pliant::faces(triangles), pliant::points(positions), &body);
         return body;
     }
     template <class F, class P>
     void set_mesh(std::uint32_t body, const F &triangles, const P &positions) {
-        call(pliant_world_set_mesh, body, faces(triangles), points(positions));
+        call(pliant_world_set_mesh, body, pliant::faces(triangles), pliant::points(positions));
     }
     void remove(std::uint32_t body) { call(pliant_world_remove, body); }
 
     template <class P> void set_positions(std::uint32_t body, const P &positions) {
-        call(pliant_world_set_positions, body, points(positions));
+        call(pliant_world_set_positions, body, pliant::points(positions));
     }
     /* Shapes of several bodies, all or none: rows of pliant::points. */
     void set_positions_of(const std::vector<std::uint32_t> &bodies,
                           const std::vector<pliant_points> &positions) {
-        detail::check_lengths(bodies.size(), positions.size());
+        detail::check_count(positions.size(), bodies.size(), "%zu shapes for %zu bodies");
         call(pliant_world_set_positions_of, bodies.data(), positions.data(), bodies.size());
     }
     template <class P> void set_motion(std::uint32_t body, const P &end) {
-        call(pliant_world_set_motion, body, points(end));
+        call(pliant_world_set_motion, body, pliant::points(end));
     }
     template <class P> void set_rest_positions(std::uint32_t body, const P &positions) {
-        const pliant_points rest = points(positions);
+        const pliant_points rest = pliant::points(positions);
         call(pliant_world_set_rest_positions, body, &rest);
     }
     void set_rest_positions(std::uint32_t body, std::nullptr_t) {
@@ -319,9 +377,10 @@ public:
     void finish_motion() { call(pliant_world_finish_motion); }
     void rebuild(std::uint32_t body) { call(pliant_world_rebuild, body); }
 
-    /* Edges, rows of two vertices as std::array<std::uint32_t, 2>, in the caller's order. */
+    /* Edges, rows of two vertices, in the caller's order. */
     template <class A> void set_edges(std::uint32_t body, const A &edges) {
-        call(pliant_world_set_edges, body, edges.data()->data(), std::size_t(edges.size()));
+        const auto own = detail::pairs_of(edges);
+        call(pliant_world_set_edges, body, own.empty() ? nullptr : own[0].data(), own.size());
     }
 
     void set_filter(std::uint32_t body, std::uint32_t membership, std::uint32_t mask) {
@@ -333,11 +392,12 @@ public:
     void ignore(std::uint32_t a, std::uint32_t b) { call(pliant_world_ignore, a, b); }
     void unignore(std::uint32_t a, std::uint32_t b) { call(pliant_world_unignore, a, b); }
     template <class A> void set_vertex_groups(std::uint32_t body, const A &groups) {
-        call(pliant_world_set_vertex_groups, body, groups.data(), std::size_t(groups.size()));
+        const auto all = detail::flat<std::uint32_t>(groups);
+        call(pliant_world_set_vertex_groups, body, all.data(), all.size());
     }
     template <class A> void set_vertex_thickness(std::uint32_t body, const A &thickness) {
-        call(pliant_world_set_vertex_thickness, body, thickness.data(),
-             std::size_t(thickness.size()));
+        const auto all = detail::flat<double>(thickness);
+        call(pliant_world_set_vertex_thickness, body, all.data(), all.size());
     }
     void set_thickness(std::uint32_t body, double thickness) {
         call(pliant_world_set_thickness, body, thickness);
@@ -348,13 +408,15 @@ public:
                     const std::vector<std::array<std::uint32_t, 2>> *neighbours = nullptr) {
         /* An empty list is a list, though its address may be NULL. */
         const std::uint32_t none[2] = {0, 0};
+        const auto all = detail::flat<std::uint32_t>(labels);
         const std::uint32_t *rows = nullptr;
         std::size_t count = 0;
         if (neighbours) {
             count = neighbours->size();
             rows = count ? neighbours->data()->data() : none;
         }
-        call(pliant_world_set_labels, body, labels.data(), std::size_t(labels.size()), rows, count);
+        call(pliant_world_set_labels, body, all.empty() ? none : all.data(), all.size(), rows,
+             count);
     }
     void set_labels(std::uint32_t body, std::nullptr_t) {
         call(pliant_world_set_labels, body, nullptr, std::size_t(0), nullptr, std::size_t(0));
@@ -373,73 +435,73 @@ public:
         call(pliant_world_edit, body, &begun);
         return Edit(begun);
     }
-    pliant_edited apply(const Edit &edit) {
+    pliant_edited apply(const Edit &edit) & {
         return told<pliant_edited>(pliant_world_apply, edit.get());
     }
-    pliant_edited weld(std::uint32_t body, double tolerance, const Query &query = {}) {
+    pliant_edited weld(std::uint32_t body, double tolerance, const Query &query = {}) & {
         return told_unless<pliant_edited>(query, [&](auto *plain, auto *edited, auto *error) {
             return pliant_world_weld(get(), body, tolerance, plain, edited, error);
         });
     }
-    View<pliant_piece> split(std::uint32_t body) {
+    View<pliant_piece> split(std::uint32_t body) & {
         const pliant_piece *pieces = nullptr;
         std::size_t count = 0;
         call(pliant_world_split, body, &pieces, &count);
         return {pieces, count};
     }
-    pliant_fused fuse(std::uint32_t a, std::uint32_t b) {
+    pliant_fused fuse(std::uint32_t a, std::uint32_t b) & {
         return told<pliant_fused>(pliant_world_fuse, a, b);
     }
 
     /* Questions with a list. */
-    pliant_hits intersections(const Query &query = {}) {
+    pliant_hits intersections(const Query &query = {}) & {
         return ask(query, pliant_world_intersections);
     }
-    pliant_hits contacts(const Query &query = {}, pliant_contact only = PLIANT_APART) {
+    pliant_hits contacts(const Query &query = {}, pliant_contact only = PLIANT_APART) & {
         return ask(query, pliant_world_contacts, only);
     }
     pliant_hits adjacent_intersections(const Query &query = {},
-                                       pliant_contact only = PLIANT_APART) {
+                                       pliant_contact only = PLIANT_APART) & {
         return ask(query, pliant_world_adjacent_intersections, only);
     }
-    pliant_hits crossing_edges(const Query &query = {}) {
+    pliant_hits crossing_edges(const Query &query = {}) & {
         return ask(query, pliant_world_crossing_edges);
     }
-    pliant_hits vertex_triangle_candidates(const Query &query, double radius) {
+    pliant_hits vertex_triangle_candidates(const Query &query, double radius) & {
         return ask(query, pliant_world_vertex_triangle_candidates, radius);
     }
-    pliant_hits edge_edge_candidates(const Query &query, double radius) {
+    pliant_hits edge_edge_candidates(const Query &query, double radius) & {
         return ask(query, pliant_world_edge_edge_candidates, radius);
     }
-    pliant_hits close_vertex_triangle_pairs(const Query &query, double distance) {
+    pliant_hits close_vertex_triangle_pairs(const Query &query, double distance) & {
         return ask(query, pliant_world_close_vertex_triangle_pairs, distance);
     }
-    pliant_hits close_edge_edge_pairs(const Query &query, double distance) {
+    pliant_hits close_edge_edge_pairs(const Query &query, double distance) & {
         return ask(query, pliant_world_close_edge_edge_pairs, distance);
     }
-    pliant_hits close_triangle_pairs(const Query &query, double distance) {
+    pliant_hits close_triangle_pairs(const Query &query, double distance) & {
         return ask(query, pliant_world_close_triangle_pairs, distance);
     }
-    pliant_hits vertex_triangle_impacts(const Query &query = {}, double width = 1e-6) {
+    pliant_hits vertex_triangle_impacts(const Query &query = {}, double width = 1e-6) & {
         return ask(query, pliant_world_vertex_triangle_impacts, width);
     }
-    pliant_hits edge_edge_impacts(const Query &query = {}, double width = 1e-6) {
+    pliant_hits edge_edge_impacts(const Query &query = {}, double width = 1e-6) & {
         return ask(query, pliant_world_edge_edge_impacts, width);
     }
 
     /* Questions with one answer. */
     pliant_hits distance(std::uint32_t a, std::uint32_t b, double cut_off,
-                         const Query &query = {}) {
+                         const Query &query = {}) & {
         return told_unless<pliant_hits>(query, [&](auto *plain, auto *hits, auto *error) {
             return pliant_world_distance(get(), a, b, cut_off, plain, hits, error);
         });
     }
-    pliant_hits nearest_body(std::uint32_t body, double cut_off, const Query &query = {}) {
+    pliant_hits nearest_body(std::uint32_t body, double cut_off, const Query &query = {}) & {
         return told_unless<pliant_hits>(query, [&](auto *plain, auto *hits, auto *error) {
             return pliant_world_nearest_body(get(), body, cut_off, plain, hits, error);
         });
     }
-    pliant_hits first_impact(const Query &query = {}, double width = 1e-6) {
+    pliant_hits first_impact(const Query &query = {}, double width = 1e-6) & {
         return told_unless<pliant_hits>(query, [&](auto *plain, auto *hits, auto *error) {
             return pliant_world_first_impact(get(), plain, width, hits, error);
         });
@@ -454,58 +516,60 @@ public:
             return pliant_world_free_step(get(), plain, min_distance, step, error);
         });
     }
-    pliant_clearance clearance(const Query &query, double cut_off) {
+    pliant_clearance clearance(const Query &query, double cut_off) & {
         return told_unless<pliant_clearance>(query, [&](auto *plain, auto *all, auto *error) {
             return pliant_world_clearance(get(), plain, cut_off, all, error);
         });
     }
-    pliant_feature_pairs feature_pairs(const Query &query, double distance) {
+    pliant_feature_pairs feature_pairs(const Query &query, double distance) & {
         return told_unless<pliant_feature_pairs>(query, [&](auto *plain, auto *all, auto *error) {
             return pliant_world_feature_pairs(get(), plain, distance, all, error);
         });
     }
 
     /* Where pairs of triangles meet, as hits have them. */
-    pliant_segments segments(const std::uint32_t *pairs, std::size_t count) {
+    pliant_segments segments(const std::uint32_t *pairs, std::size_t count) & {
         return told<pliant_segments>(pliant_world_segments, pairs, count);
     }
-    pliant_curves curves(const std::uint32_t *pairs, std::size_t count, bool areas = false) {
+    pliant_curves curves(const std::uint32_t *pairs, std::size_t count, bool areas = false) & {
         return told<pliant_curves>(pliant_world_curves, pairs, count, std::uint8_t(areas));
     }
 
-    /* What it has. Views are valid until the same is asked again. */
-    View<std::uint32_t> bodies() const { return list<1>(pliant_world_bodies); }
-    View<std::uint32_t> triangles(std::uint32_t body) const {
+    /* What it has. Numbers come in rows: three vertices a triangle, two an edge. */
+    std::vector<std::uint32_t> bodies() const { return list<1>(pliant_world_bodies); }
+    std::vector<std::uint32_t> triangles(std::uint32_t body) const {
         return list<3>(pliant_world_triangles, body);
     }
-    View<std::uint32_t> edges(std::uint32_t body) const {
+    std::vector<std::uint32_t> edges(std::uint32_t body) const {
         return list<2>(pliant_world_edges, body);
     }
-    View<std::uint32_t> vertex_order(std::uint32_t body) const {
+    std::vector<std::uint32_t> vertex_order(std::uint32_t body) const {
         return list<1>(pliant_world_vertex_order, body);
     }
-    View<std::uint32_t> components(std::uint32_t body) const {
+    std::vector<std::uint32_t> components(std::uint32_t body) const {
         return list<1>(pliant_world_components, body);
     }
-    View<std::uint32_t> vertex_groups(std::uint32_t body) const {
+    std::vector<std::uint32_t> vertex_groups(std::uint32_t body) const {
         return list<1>(pliant_world_vertex_groups, body);
     }
-    View<std::uint32_t> live_triangles(std::uint32_t body) const {
+    std::vector<std::uint32_t> live_triangles(std::uint32_t body) const {
         return list<1>(pliant_world_live_triangles, body);
     }
-    View<std::uint32_t> live_vertices(std::uint32_t body) const {
+    std::vector<std::uint32_t> live_vertices(std::uint32_t body) const {
         return list<1>(pliant_world_live_vertices, body);
     }
-    View<std::uint32_t> tree_cut(std::uint32_t body, std::uint32_t level) const {
+    std::vector<std::uint32_t> tree_cut(std::uint32_t body, std::uint32_t level) const {
         return list<1>(pliant_world_tree_cut, body, level);
     }
     /* Bodies that ignore each other, two a pair. */
-    View<std::uint32_t> ignored() const { return list<2>(pliant_world_ignored); }
+    std::vector<std::uint32_t> ignored() const { return list<2>(pliant_world_ignored); }
     /* Labels, and pairs of neighbours; neither if there are none. */
-    std::pair<View<std::uint32_t>, View<std::uint32_t>> labels(std::uint32_t body) const {
+    std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>>
+    labels(std::uint32_t body) const {
         pliant_list all{}, pairs{};
         call(pliant_world_labels, body, &all, &pairs);
-        return {{all.numbers, all.count}, {pairs.numbers, 2 * pairs.count}};
+        return {std::vector<std::uint32_t>(all.numbers, all.numbers + all.count),
+                std::vector<std::uint32_t>(pairs.numbers, pairs.numbers + 2 * pairs.count)};
     }
 
     std::size_t triangle_count(std::uint32_t body) const { return counts(body).first; }
@@ -553,9 +617,10 @@ public:
     pliant_tree_shape tree_shape(std::uint32_t body) const {
         return told<pliant_tree_shape>(pliant_world_tree_shape, body);
     }
-    pliant_boxes tree_boxes(std::uint32_t body, std::uint32_t level) const {
+    pliant_boxes tree_boxes(std::uint32_t body, std::uint32_t level) const & {
         return told<pliant_boxes>(pliant_world_tree_boxes, body, level);
     }
+    /* Without pool and scheduler. */
     pliant_options options() const { return told<pliant_options>(pliant_world_options); }
     pliant_statistics statistics() const {
         return told<pliant_statistics>(pliant_world_statistics);
@@ -565,7 +630,7 @@ public:
 
 private:
     struct Free {
-        void operator()(pliant_world *world) const { pliant_world_free(world); }
+        void operator()(pliant_world *made) const { pliant_world_free(made); }
     };
 
     World(pliant_world *made, std::shared_ptr<ParallelFor> scheduler)
@@ -605,11 +670,11 @@ private:
         return out;
     }
 
-    /* A list with rows of so many numbers. */
+    /* A list whose rows have several numbers. */
     template <int Columns, class F, class... Arguments>
-    View<std::uint32_t> list(F function, Arguments... arguments) const {
+    std::vector<std::uint32_t> list(F function, Arguments... arguments) const {
         const auto rows = told<pliant_list>(function, arguments...);
-        return {rows.numbers, Columns * rows.count};
+        return {rows.numbers, rows.numbers + Columns * rows.count};
     }
 
     template <class F>
@@ -656,12 +721,12 @@ private:
         plain.user = &asked;
         if (query.visit) {
             plain.visit = [](void *user, const pliant_hits *some) {
-                return guarded(user, [=](const Query &query) { return query.visit(*some); });
+                return guarded(user, [=](const Query &asked_of) { return asked_of.visit(*some); });
             };
         }
         if (query.interrupt) {
             plain.interrupt = [](void *user) {
-                return guarded(user, [](const Query &query) { return query.interrupt(); });
+                return guarded(user, [](const Query &asked_of) { return asked_of.interrupt(); });
             };
         }
         T out{};
@@ -707,8 +772,10 @@ public:
     /* Edges of a body before and after an edit, as World::edges has them. */
     template <class A, class B>
     void edges_edited(std::uint32_t body, const A &before, const B &after) {
-        call(pliant_changes_edges_edited, body, before.data(), std::size_t(before.size() / 2),
-             after.data(), std::size_t(after.size() / 2));
+        const auto from = detail::flat<std::uint32_t>(before);
+        const auto to = detail::flat<std::uint32_t>(after);
+        call(pliant_changes_edges_edited, body, from.data(), from.size() / 2, to.data(),
+             to.size() / 2);
     }
     void split(std::uint32_t body, const View<pliant_piece> &pieces) {
         call(pliant_changes_split, body, pieces.data(), pieces.size());

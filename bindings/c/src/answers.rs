@@ -55,7 +55,7 @@ calls! {
         hits: *mut PliantHits,
     ) |inside| {
         // SAFETY: as the header says.
-        let (_, until) = unsafe { PliantQuery::of_one_answer(query)? };
+        let until = unsafe { PliantQuery::interrupt_alone(query)? };
         let found = with_world!(&mut inside.world, world => {
             world.interruptible(&|| until.ends()).distance(BodyId(a), BodyId(b), cut_off)?
         });
@@ -72,7 +72,7 @@ calls! {
         hits: *mut PliantHits,
     ) |inside| {
         // SAFETY: as the header says.
-        let (_, until) = unsafe { PliantQuery::of_one_answer(query)? };
+        let until = unsafe { PliantQuery::interrupt_alone(query)? };
         let found = with_world!(&mut inside.world, world => {
             world.interruptible(&|| until.ends()).nearest_body(BodyId(body), cut_off)?
         });

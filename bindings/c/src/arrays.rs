@@ -37,6 +37,16 @@ pub(crate) fn start<T, N>(list: &[T]) -> *const N {
     }
 }
 
+/// A structure of the caller's, wherever it lies; none if the pointer is NULL.
+///
+/// # Safety
+///
+/// It is NULL, or may be read.
+pub(crate) unsafe fn read<T: Copy>(data: *const T) -> Option<T> {
+    // SAFETY: it is not NULL, so it may be read.
+    (!data.is_null()).then(|| unsafe { data.read_unaligned() })
+}
+
 /// Writes a result, unless the pointer is NULL.
 ///
 /// # Safety

@@ -1,6 +1,6 @@
 //! Bodies: shapes, meshes, motions, and who meets whom.
 
-use crate::arrays::{give, list, row};
+use crate::arrays::{give, list, read, row};
 use crate::faces::PliantFaces;
 use crate::points::{Number, PliantPoints, exactly, positions};
 use crate::status::Refused;
@@ -76,8 +76,8 @@ calls! {
 
     fn pliant_world_set_rest_positions(body: u32, points: *const PliantPoints) |inside| {
         // SAFETY: as the header says.
-        let points = unsafe { points.as_ref() };
-        with_world!(&mut inside.world, world => match points {
+        let points = unsafe { read(points) };
+        with_world!(&mut inside.world, world => match &points {
             Some(points) => take(world, body, Takes::Rest, points),
             None => Ok(world.set_rest_positions(BodyId(body), None)?),
         })

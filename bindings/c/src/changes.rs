@@ -1,6 +1,6 @@
 //! Changes of a list of hits from one step to the next.
 
-use crate::arrays::{PliantList, give, list, start};
+use crate::arrays::{PliantList, give, list, read, start};
 use crate::edits::{PliantEdited, PliantFused, PliantPiece};
 use crate::objects::{hand_out, take_back, uses};
 use crate::status::{BAD_OPTION, PliantError, PliantStatus, Refused, call};
@@ -118,7 +118,7 @@ uses! {
 
     fn pliant_changes_edited(body: u32, edited: *const PliantEdited) |kept| {
         // SAFETY: as the header says.
-        let edited = unsafe { edited.as_ref() }.ok_or_else(|| Refused::null("edited"))?;
+        let edited = unsafe { read(edited) }.ok_or_else(|| Refused::null("edited"))?;
         // SAFETY: as the header says.
         let edited = unsafe { edited.copied()? };
         kept.changes.edited(BodyId(body), &edited);
@@ -158,7 +158,7 @@ uses! {
 
     fn pliant_changes_fused(body: u32, gone: u32, fused: *const PliantFused) |kept| {
         // SAFETY: as the header says.
-        let fused = unsafe { fused.as_ref() }.ok_or_else(|| Refused::null("fused"))?;
+        let fused = unsafe { read(fused) }.ok_or_else(|| Refused::null("fused"))?;
         let fused = Fused {
             triangles: numbers(&fused.triangles, "fused.triangles")?,
             vertices: numbers(&fused.vertices, "fused.vertices")?,

@@ -1,6 +1,6 @@
 //! Meshes that change: edits, pieces of a body, bodies that become one.
 
-use crate::arrays::{PliantList, give, list, row};
+use crate::arrays::{PliantList, give, list, row, start};
 use crate::faces::PliantFaces;
 use crate::objects::{hand_out, held, take_back, uses};
 use crate::points::{Number, PliantPoints, positions};
@@ -240,7 +240,7 @@ calls! {
         edited: *mut PliantEdited,
     ) |inside| {
         // SAFETY: as the header says.
-        let (_, until) = unsafe { PliantQuery::of_one_answer(query)? };
+        let until = unsafe { PliantQuery::interrupt_alone(query)? };
         let done = with_world!(&mut inside.world, world => {
             world.interruptible(&|| until.ends()).weld(BodyId(body), tolerance)?
         });
@@ -261,7 +261,7 @@ calls! {
         kept.views = kept.pieces.iter().map(view).collect();
         // SAFETY: as the header says.
         unsafe {
-            give(pieces, kept.views.as_ptr());
+            give(pieces, start(&kept.views));
             give(count, kept.views.len());
         }
         Ok(())

@@ -6,6 +6,7 @@ use crate::points::Number;
 use crate::status::{INVALID, Refused};
 use crate::world::{AnyWorld, calls, with_world};
 use pliant::{BodyId, NodeBox, Statistics, World};
+use std::ptr::{null, null_mut};
 
 /// Lists that the caller reads, one for each function.
 #[derive(Default)]
@@ -265,8 +266,15 @@ calls! {
     }
 
     fn pliant_world_options(options: *mut PliantOptions) |inside| {
+        // Whether these are still there only the caller knows.
+        let own = PliantOptions {
+            pool: null(),
+            parallel_for: None,
+            parallel_user: null_mut(),
+            ..inside.options
+        };
         // SAFETY: as the header says.
-        unsafe { give(options, inside.options) };
+        unsafe { give(options, own) };
         Ok(())
     }
 

@@ -4,7 +4,7 @@
 //! `[[[f64; 3]; 4]]` has them, they are read where they lie. Else some thousands are copied at a
 //! time.
 
-use crate::arrays::countable;
+use crate::arrays::{countable, read};
 use crate::status::{BAD_SCALAR, DIFFERENT_COUNTS, Refused, WOULD_ROUND};
 use pliant::Scalar;
 use std::borrow::Cow;
@@ -120,7 +120,8 @@ pub(crate) unsafe fn positions<S: Number>(
         F32 | F64 if points.scalar == S::SCALAR => {
             let (rows, size) = (points.data.cast::<[S; 3]>(), size_of::<S>());
             let lie_so = points.strides(size) == [3 * size as isize, size as isize];
-            if lie_so && rows.is_aligned() && !rows.is_null() {
+            let fits = points.count <= isize::MAX as usize / (3 * size);
+            if lie_so && fits && rows.is_aligned() && !rows.is_null() {
                 // SAFETY: the rows may be read, lie behind each other, and are aligned.
                 let rows = unsafe { std::slice::from_raw_parts(rows, points.count) };
                 return Ok(Cow::Borrowed(rows));
@@ -146,8 +147,8 @@ pub(crate) unsafe fn positions<S: Number>(
 }
 
 /// Corners of pairs, `C` of each, all of one type and count.
-pub(crate) struct Corners<'c, const C: usize> {
-    points: &'c [PliantPoints; C],
+pub(crate) struct Corners<const C: usize> {
+    points: [PliantPoints; C],
     count: usize,
     scalar: PliantScalar,
 }
@@ -155,7 +156,7 @@ pub(crate) struct Corners<'c, const C: usize> {
 /// Pairs that are looked at before answers are written: they, and copies, stay in the cache.
 const AT_ONCE: usize = 1024;
 
-impl<'c, const C: usize> Corners<'c, C> {
+impl<const C: usize> Corners<C> {
     /// Corners as the caller gives them, by the name of the argument.
     ///
     /// # Safety
@@ -164,7 +165,7 @@ impl<'c, const C: usize> Corners<'c, C> {
     pub(crate) unsafe fn new(points: *const PliantPoints, name: &str) -> Result<Self, Refused> {
         let points = points.cast::<[PliantPoints; C]>();
         // SAFETY: it is NULL, or there are C arrays.
-        let Some(points) = (unsafe { points.as_ref() }) else {
+        let Some(points) = (unsafe { read(points) }) else {
             return Err(Refused::null(name));
         };
         let PliantPoints { count, scalar, .. } = points[0];
@@ -208,7 +209,7 @@ impl<'c, const C: usize> Corners<'c, C> {
     }
 
     /// All pairs where they lie, if they lie as an array of Rust does.
-    fn in_place<S: Scalar>(&self) -> Option<&'c [[[S; 3]; C]]> {
+    fn in_place<S: Scalar>(&self) -> Option<&[[[S; 3]; C]]> {
         let size = size_of::<S>();
         let all = self.points[0].data.cast::<[[S; 3]; C]>();
         let row = (3 * C * size) as isize;
@@ -234,7 +235,7 @@ pub(crate) fn some_at_a_time<S: Scalar, const C: usize, const L: usize>(
     mut each: impl FnMut(usize, [&[[[S; 3]; C]]; L]) -> Result<(), Refused>,
 ) -> Result<(), Refused> {
     let count = lists[0].count;
-    let in_place = lists.map(Corners::in_place::<S>);
+    let in_place = lists.map(|list| list.in_place::<S>());
     let mut copies: [Vec<[[S; 3]; C]>; L] = [(); L].map(|()| Vec::new());
     let mut first = 0;
     while first < count {

@@ -1,6 +1,6 @@
 //! Questions of a world: lists, first hits and visits, all by one query and one form of answer.
 
-use crate::arrays::{give, refused};
+use crate::arrays::{give, read, refused};
 use crate::hits::{Columns, PliantHits, Row};
 use crate::status::{BAD_OPTION, PliantError, PliantStatus, Refused};
 use crate::world::{Inside, PliantWorld, inside, with_world};
@@ -88,12 +88,23 @@ impl PliantQuery {
         query: *const Self,
     ) -> Result<(Selection, Interrupt), Refused> {
         // SAFETY: as above.
-        let asked = unsafe { query.as_ref() }.copied().unwrap_or(Self::ALL);
+        let (of, until) = unsafe { (read(query), Self::interrupt_alone(query)?) };
+        Ok((of.unwrap_or(Self::ALL).of.checked()?, until))
+    }
+
+    /// A query of which nothing is read but what may end it.
+    ///
+    /// # Safety
+    ///
+    /// It is NULL, or as the header says.
+    pub(crate) unsafe fn interrupt_alone(query: *const Self) -> Result<Interrupt, Refused> {
+        // SAFETY: as above.
+        let asked = unsafe { read(query) }.unwrap_or(Self::ALL);
         if asked.how != ALL || asked.at_most != 0 || asked.visit.is_some() {
             let words = "query.how, at_most and visit are for lists; this has one answer: give 0";
             return refused(BAD_OPTION, words);
         }
-        Ok((asked.of.checked()?, asked.interrupt()))
+        Ok(asked.interrupt())
     }
 }
 
@@ -109,6 +120,10 @@ fn answer<H: Row>(
         most => query.at_most(usize::try_from(most).unwrap_or(usize::MAX)),
     };
     list.take::<H>(&[]);
+    if asked.visit.is_some() && asked.at_most != 0 {
+        let words = "query.at_most is for lists; a visitor ends the question itself";
+        return refused(BAD_OPTION, words);
+    }
     match (asked.how, asked.visit) {
         (ALL, Some(visit)) => {
             let _ = query.visit_some(|some| {
@@ -150,7 +165,7 @@ macro_rules! ask {
     ) => {{
         let work = |inside: &mut Inside| {
             // SAFETY: as the header says.
-            let asked = unsafe { $query.as_ref() }.copied().unwrap_or(PliantQuery::ALL);
+            let asked = unsafe { read($query) }.unwrap_or(PliantQuery::ALL);
             let $of: Selection = asked.of.checked()?;
             let interrupt = asked.interrupt();
             let question = || interrupt.ends();

@@ -117,7 +117,7 @@ impl Refused {
 
     /// A pointer that is NULL, by its name in the header.
     pub(crate) fn null(name: &str) -> Self {
-        Self::new(NULL, format_args!("{name} is NULL; give an array"))
+        Self::new(NULL, format_args!("{name} is NULL; give an address"))
     }
 
     /// Says which body it is about.

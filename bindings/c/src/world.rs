@@ -1,5 +1,6 @@
 //! Worlds: how they are made, copied and freed. One call at a time is inside.
 
+use crate::arrays::read;
 use crate::hits::Columns;
 use crate::objects::{hand_out, take_back};
 use crate::options::PliantOptions;
@@ -179,7 +180,7 @@ pub unsafe extern "C" fn pliant_world_new(
 ) -> PliantStatus {
     let make = || {
         // SAFETY: as the header says.
-        let options = unsafe { options.as_ref() }.copied().unwrap_or_default();
+        let options = unsafe { read(options) }.unwrap_or_default();
         let made = match options.scalar {
             // SAFETY: as the header says of the pool.
             F32 => AnyWorld::F32(unsafe { options.world()? }),

@@ -301,7 +301,7 @@ fn is_there(compiler: &str) -> bool {
 fn run(compiler: &str, flags: &[&str], file: &Path, by: &[&str]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let (program, libraries) = (folder.path().join("program"), libraries());
-    let warnings = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"];
+    let warnings = ["-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror"];
     let compiled = Command::new(compiler)
         .args(flags)
         .args(warnings)

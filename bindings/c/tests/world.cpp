@@ -133,8 +133,44 @@ int main() {
     world.set_labels(leaf, std::vector<std::uint32_t>(1, 4), &near);
     CHECK(world.labels(leaf).first[0] == 4 && world.labels(leaf).second[1] == 5);
     world.set_labels(leaf, std::vector<std::uint32_t>(1, 4), &none);
-    world.set_labels(leaf, std::vector<std::uint32_t>(1, 4));
+    world.set_labels(leaf, std::vector<int>(1, 4));
+    const auto refused = [](const auto &call) {
+        try {
+            call();
+        } catch (const pliant::Error &error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const auto holds = [](const std::string &text, const char *words) {
+        return text.find(words) != std::string::npos;
+    };
+    CHECK(holds(refused([&] { world.set_labels(leaf, std::vector<int>()); }), "0 labels for 1"));
+    CHECK(world.labels(leaf).first.size() == 1);
     world.set_labels(leaf, nullptr);
+    CHECK(holds(refused([&] { world.set_edges(leaf, std::vector<std::array<int, 2>>()); }),
+                "edges lack"));
+    const std::vector<double> flat{0, 0, 2, 1, 0, 3, 0, 1, 3}, odd(10);
+    world.set_positions(leaf, flat);
+    CHECK(world.positions(leaf) == leaf_at);
+    CHECK(holds(refused([&] { world.set_positions(leaf, odd); }), "flat"));
+    CHECK(holds(refused([&] { world.set_positions_of({leaf}, {}); }), "0 shapes for 1"));
+#ifdef HAS_EIGEN
+    /* Columns of a matrix, which have a stride; edges as a matrix; the transpose, which is none. */
+    Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> table(3, 4);
+    table << 0, 0, 2, 0.1, 1, 0, 3, 0.2, 0, 1, 3, 0.3;
+    world.set_vertex_thickness(leaf, table.col(3));
+    CHECK(world.thickness(leaf)[2] == 0.3);
+    world.set_thickness(leaf, 0.5);
+    world.set_positions(leaf, table.leftCols(3));
+    Eigen::MatrixXi ends(3, 2);
+    ends << 2, 1, 1, 0, 2, 0;
+    world.set_edges(leaf, ends);
+    CHECK(world.edges(leaf)[0] == 1 && world.edges(leaf)[3] == 1);
+    const Eigen::MatrixXd across = Eigen::MatrixXd::Zero(3, 5);
+    CHECK(holds(refused([&] { world.set_positions(leaf, across); }), "5 columns"));
+    CHECK(holds(refused([&] { world.set_edges(leaf, across.cast<int>().eval()); }), "5 columns"));
+#endif
     CHECK(world.labels(leaf).first.size() == 0);
     CHECK(world.rest_positions(leaf).empty() && world.end_positions(leaf).empty());
     world.set_rest_positions(leaf, leaf_at);
@@ -185,8 +221,7 @@ int main() {
     /* A mesh that changes, and lists that are followed. */
     pliant::Changes changes;
     CHECK(changes.update(met).began_count == 1);
-    const auto edges = world.edges(leaf);
-    const std::vector<std::uint32_t> edges_before(edges.begin(), edges.end());
+    const auto edges_before = world.edges(leaf);
     pliant::Edit edit = world.edit(leaf);
     const std::uint32_t first = edit.add_vertices(floor_at);
     CHECK(first == 3 && edit.add_triangles(std::vector<std::array<int, 3>>{{3, 4, 5}}) == 1);

@@ -124,7 +124,8 @@ pub enum ErrorKind {
         /// Pairs at the end.
         end: usize,
     },
-    /// A coordinate of a single pair is NaN, infinite, or larger than `f32::MAX` in magnitude.
+    /// A coordinate of a single pair is NaN, infinite, or larger than `f32::MAX` in magnitude; or
+    /// this thread takes it for zero, because it flushes subnormal numbers.
     BadCorner {
         /// The pair, counted from 0.
         pair: usize,
@@ -319,7 +320,7 @@ impl ErrorKind {
         match self {
             Self::TooManyHits { limit } => write!(
                 f,
-                "more hits than the {limit} that were allowed; allow more, or visit them one by one"
+                "more hits than the {limit} that were allowed; allow more, or visit them"
             ),
             Self::Interrupted => write!(
                 f,
@@ -327,7 +328,7 @@ impl ErrorKind {
             ),
             Self::BadMargin { radius } => write!(
                 f,
-                "the margin is {radius}; give a finite number that is at least 0"
+                "the radius is {radius}; give a finite number that is at least 0"
             ),
             Self::BadDistance { distance } => write!(
                 f,
@@ -347,6 +348,16 @@ impl ErrorKind {
                 f,
                 "{start} pairs at the start and {end} at the end of the motion; give the same \
                  pairs at both"
+            ),
+            Self::BadCorner {
+                pair,
+                corner,
+                position,
+            } if position.iter().all(|x| x.abs() <= f64::from(f32::MAX)) => write!(
+                f,
+                "corner {corner} of pair {pair} is at {position:?}, of which this thread takes a \
+                 coordinate for zero, because it flushes subnormal numbers; switch flush-to-zero \
+                 and denormals-are-zero off, or make the coordinate zero"
             ),
             Self::BadCorner {
                 pair,
@@ -380,17 +391,17 @@ impl ErrorKind {
                 triangles,
             } => write!(
                 f,
-                "the edit names triangle {triangle}, but there are {triangles} triangles (counted \
+                "triangle {triangle} is named, but there are {triangles} triangles (counted \
                  from 0); name one that is there"
             ),
             Self::EmptyTriangle { triangle } => write!(
                 f,
-                "the edit names triangle {triangle}, which was taken out; give it corners to use \
+                "triangle {triangle} is named, which was taken out; give it corners to use \
                  its number again"
             ),
             Self::NoSuchVertex { vertex, vertices } => write!(
                 f,
-                "the edit names vertex {vertex}, but there are {vertices} vertices (counted from \
+                "vertex {vertex} is named, but there are {vertices} vertices (counted from \
                  0); name one that is there"
             ),
             Self::MissingEdge { ends: [a, b] } => write!(
@@ -414,7 +425,7 @@ impl ErrorKind {
             ),
             Self::EmptyVertex { vertex } => write!(
                 f,
-                "the edit names vertex {vertex}, which is empty, for no triangle has it any more; \
+                "vertex {vertex} is named, which is empty, for no triangle has it any more; \
                  place it to use its number again"
             ),
             Self::VertexInUse { vertex } => write!(

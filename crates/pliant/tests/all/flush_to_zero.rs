@@ -5,7 +5,10 @@
 //! arithmetic and boxes are not subnormal, or their loss is allowed for. Smaller coordinates are
 //! zero in such a thread before any of our code runs.
 
-use pliant::{Error, ErrorKind, Scalar, Selection, World, reference};
+use pliant::{
+    Error, ErrorKind, Scalar, Selection, World, edge_edge_distances, edge_edge_impacts, reference,
+    triangle_contacts, vertex_triangle_distances, vertex_triangle_impacts,
+};
 use pliant_oracle::{Class, Random, Triangle, fits_f32, intersect, subnormals_flushed};
 
 /// Whether every coordinate is zero or at least 2^exponent in magnitude.
@@ -128,6 +131,40 @@ fn what_such_a_thread_would_lose_is_refused() {
     assert_eq!(same, Ok(()));
     // A thread that keeps subnormal numbers accepts them.
     world.set_positions(body, &bad).unwrap();
+}
+
+#[test]
+fn single_pairs_that_such_a_thread_would_lose_are_refused() {
+    let good = [
+        [0.0, 1.0, 2.0],
+        [3.0, -4.0, 5.0],
+        [f64::MIN_POSITIVE, 2.0, 0.0],
+    ];
+    let pair = |tiny: f64| [good[0], good[1], good[2], [0.0, tiny, 0.0]];
+    let bad = [pair(1.0), pair(5e-324)];
+    let six = bad.map(|[a, b, c, d]| [a, b, c, a, b, d]);
+    let asked = || {
+        [
+            vertex_triangle_distances(&bad).err(),
+            edge_edge_distances(&bad).err(),
+            vertex_triangle_impacts(&bad, &bad, 1e-6).err(),
+            edge_edge_impacts(&bad, &bad, 1e-6).err(),
+            triangle_contacts(&six).err(),
+        ]
+    };
+    assert_eq!(asked(), [None, None, None, None, None]);
+    let Some(refused) = subnormals_flushed(asked) else {
+        return;
+    };
+    for refused in refused {
+        let refused = refused.unwrap();
+        let ErrorKind::BadCorner { pair, corner, .. } = refused.kind else {
+            panic!("{refused}");
+        };
+        // The smallest normal number is too small there, too.
+        assert_eq!((pair, corner), (0, 2), "{refused}");
+        assert!(refused.to_string().contains("flushes"), "{refused}");
+    }
 }
 
 /// A distance below the smallest normal number is returned as that number, and not as zero.

@@ -111,7 +111,7 @@ pub(crate) fn edge_edge_distances<'py>(py: Python<'py>, corners: &Any<'py>) -> R
 fn distances<'py>(
     py: Python<'py>,
     corners: &Any<'py>,
-    measure: impl Fn(&[[[f64; 3]; 4]]) -> std::result::Result<Vec<PairDistance>, pliant::Error> + Sync,
+    measure: fn(&[[[f64; 3]; 4]]) -> std::result::Result<Vec<PairDistance>, pliant::Error>,
 ) -> Result<Any<'py>> {
     let pairs = arrays::corners_of_pairs::<4>(corners)?;
     let found = py.detach(|| caught(|| Ok(measure(&pairs)?)))?;

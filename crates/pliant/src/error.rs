@@ -124,7 +124,7 @@ pub enum ErrorKind {
         /// Pairs at the end.
         end: usize,
     },
-    /// A coordinate of a single pair is NaN, infinite, or larger than `f32::MAX` in magnitude; or
+    /// A coordinate of a single pair is NaN, infinite, or larger than `f32::MAX` in magnitude. Or
     /// this thread takes it for zero, because it flushes subnormal numbers.
     BadCorner {
         /// The pair, counted from 0.

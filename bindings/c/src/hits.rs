@@ -146,7 +146,7 @@ pub(crate) trait Row: Copy + InRows {
 impl Columns {
     /// Takes some hits, in place of all before.
     pub(crate) fn take<H: Row>(&mut self, hits: &[H]) {
-        self.count = hits.len();
+        self.count = 0;
         self.rows.clear();
         self.pairs.clear();
         self.kinds.clear();
@@ -160,9 +160,20 @@ impl Columns {
         ] {
             list.clear();
         }
+        self.add(hits);
+    }
+
+    /// Takes some hits more.
+    pub(crate) fn add<H: Row>(&mut self, hits: &[H]) {
+        self.count += hits.len();
         for hit in hits {
             hit.put(self);
         }
+    }
+
+    /// Number of hits.
+    pub(crate) fn count(&self) -> usize {
+        self.count
     }
 
     /// The columns as the caller reads them.

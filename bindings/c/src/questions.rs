@@ -4,7 +4,7 @@ use crate::arrays::{give, read, refused};
 use crate::hits::{Columns, PliantHits, Row};
 use crate::status::{BAD_OPTION, PliantError, PliantStatus, Refused};
 use crate::world::{Inside, PliantWorld, inside, with_world};
-use pliant::{BodyId, ContactKind, Query, Selection};
+use pliant::{BodyId, ContactKind, Error, ErrorKind, Query, Selection};
 use std::ffi::{c_int, c_void};
 use std::ops::ControlFlow;
 
@@ -115,10 +115,11 @@ fn answer<H: Row>(
     query: Query<'_, H>,
     (list, shown): (&mut Columns, &mut Columns),
 ) -> Result<Option<Vec<H>>, Refused> {
-    let query = match asked.at_most {
-        0 => query,
-        most => query.at_most(usize::try_from(most).unwrap_or(usize::MAX)),
+    let most = match asked.at_most {
+        0 => usize::MAX,
+        most => usize::try_from(most).unwrap_or(usize::MAX),
     };
+    let query = query.at_most(most);
     list.take::<H>(&[]);
     if asked.visit.is_some() && asked.at_most != 0 {
         let words = "query.at_most is for lists; a visitor ends the question itself";
@@ -137,11 +138,28 @@ fn answer<H: Row>(
             })?;
         }
         (ALL, None) => list.take(query.all()?),
-        (how @ (UNSORTED | ROWS), None) => {
+        (UNSORTED, None) => {
+            // The order of visits, without a list of hits beside the columns.
+            let done = query.visit_some(|some| {
+                if some.len() > most - list.count() {
+                    return ControlFlow::Break(ErrorKind::TooManyHits { limit: most });
+                }
+                list.add(some);
+                ControlFlow::Continue(())
+            });
+            let failed = match done {
+                Ok(ControlFlow::Continue(())) => return Ok(None),
+                Ok(ControlFlow::Break(kind)) => Error { body: None, kind },
+                Err(refused) => refused,
+            };
+            list.take::<H>(&[]);
+            return Err(failed.into());
+        }
+        (ROWS, None) => {
             let mut all = Vec::new();
             query.unsorted(&mut all)?;
             list.take(&all);
-            return Ok((how == ROWS).then_some(all));
+            return Ok(Some(all));
         }
         (FIRST, None) => list.take(query.first()?.as_slice()),
         (PREPARE, None) => query.prepare()?,

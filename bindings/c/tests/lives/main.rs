@@ -136,12 +136,21 @@ fn asked(
     let first = write(&hits);
     assert_eq!(first.len(), lines.len().min(1));
     assert!(first.iter().all(|line| lines.contains(line)));
-    if lines.len() > 1 {
+    for how in [0, 1, 3] {
+        let at_most = lines.len() as u64 - u64::from(lines.len() > 1);
         let fewer = PliantQuery {
-            at_most: lines.len() as u64 - 1,
+            how,
+            at_most,
             ..query
         };
-        assert_eq!(ask(&fewer, &mut hits), 30);
+        let status = if lines.len() > 1 { 30 } else { 0 };
+        assert_eq!(ask(&fewer, &mut hits), status);
+        let most = PliantQuery {
+            at_most: 1 + lines.len() as u64,
+            ..fewer
+        };
+        assert_eq!(ask(&most, &mut hits), 0);
+        assert_eq!(hits.count, lines.len());
     }
     lines
 }

@@ -1,21 +1,25 @@
 //! Meshes that change, and lists that are followed through that, by C and by Rust.
 
 use crate::{Random, column, rows, rows_of};
-use pliant::{BodyId, Changes, EdgeEdge, Edited, Fused, Pair, Piece, Scalar, Selection, World};
+use pliant::{
+    BodyId, Changes, EdgeEdge, Edited, Fused, Pair, Piece, Scalar, Selection, VertexTriangle, World,
+};
 use pliant_c::*;
 use std::ptr::{null, null_mut};
 use std::slice;
 
-/// Lists that are followed: of triangles that intersect, and of edges that are near.
+/// Lists that are followed: triangles that intersect; vertices and triangles, and edges, that are
+/// near each other.
 pub(crate) struct Followed {
-    c: [*mut PliantChanges; 2],
+    c: [*mut PliantChanges; 3],
     triangles: Changes<Pair>,
+    vertices: Changes<VertexTriangle>,
     edges: Changes<EdgeEdge>,
 }
 
 impl Followed {
     pub(crate) fn new() -> Self {
-        let c = [0, 2].map(|elements| {
+        let c = [0, 1, 2].map(|elements| {
             let mut changes = null_mut();
             // SAFETY: all arguments are there.
             unsafe {
@@ -29,6 +33,7 @@ impl Followed {
         Self {
             c,
             triangles: Changes::new(),
+            vertices: Changes::new(),
             edges: Changes::new(),
         }
     }
@@ -36,20 +41,16 @@ impl Followed {
     /// Compares what began and ended since the last call.
     pub(crate) fn update<S: Scalar>(&mut self, rust: &mut World<S>) {
         let of = Selection::Everything;
-        let triangles = rust.intersections(of).all().unwrap().to_vec();
-        let edges = rust.edge_edge_candidates(of, 0.25).all().unwrap().to_vec();
-        let told = self.triangles.update(&triangles);
-        Self::compare(
-            self.c[0],
-            &triangles.iter().map(|&it| it.into()).collect::<Vec<_>>(),
-            told,
-        );
-        let told = self.edges.update(&edges);
-        Self::compare(
-            self.c[1],
-            &edges.iter().map(|&it| it.into()).collect::<Vec<_>>(),
-            told,
-        );
+        let list = rust.intersections(of).all().unwrap().to_vec();
+        let rows: Vec<[u32; 4]> = list.iter().map(|&it| it.into()).collect();
+        Self::compare(self.c[0], &rows, self.triangles.update(&list));
+        let list = rust.vertex_triangle_candidates(of, 0.25);
+        let list = list.all().unwrap().to_vec();
+        let rows: Vec<[u32; 4]> = list.iter().map(|&it| it.into()).collect();
+        Self::compare(self.c[1], &rows, self.vertices.update(&list));
+        let list = rust.edge_edge_candidates(of, 0.25).all().unwrap().to_vec();
+        let rows: Vec<[u32; 4]> = list.iter().map(|&it| it.into()).collect();
+        Self::compare(self.c[2], &rows, self.edges.update(&list));
     }
 
     fn compare(c: *mut PliantChanges, rows: &[[u32; 4]], expected: pliant::Changed) {
@@ -92,6 +93,7 @@ impl Followed {
         (told, expected): (&PliantEdited, &Edited),
     ) {
         self.triangles.edited(body, expected);
+        self.vertices.edited(body, expected);
         let after = rust.edges(body).unwrap();
         self.edges.follow(|_, of, edge| {
             let ends = before.get(edge as usize);
@@ -99,14 +101,14 @@ impl Followed {
             is_same.then_some((of, edge))
         });
         let (start, end) = (before.as_ptr().cast(), after.as_ptr().cast());
-        let [triangles, edges] = self.c;
+        let [triangles, vertices, edges] = self.c;
         let (m, n) = (before.len(), after.len());
         // SAFETY: all arguments are there.
         unsafe {
-            assert_eq!(
-                pliant_changes_edited(triangles, body.0, told, null_mut()),
-                0
-            );
+            for changes in [triangles, vertices] {
+                let noted = pliant_changes_edited(changes, body.0, told, null_mut());
+                assert_eq!(noted, 0);
+            }
             let noted = pliant_changes_edges_edited(edges, body.0, start, m, end, n, null_mut());
             assert_eq!(noted, 0);
         }
@@ -277,6 +279,7 @@ pub(crate) fn split<S: Scalar>(
         assert_eq!(rows_of(&told.vertices, 1), expected.vertices);
     }
     followed.triangles.split(body, &expected);
+    followed.vertices.split(body, &expected);
     followed.edges.split(body, &expected);
     expected.iter().map(|it| it.body).collect()
 }
@@ -309,5 +312,6 @@ pub(crate) fn fuse<S: Scalar>(
     assert_eq!(rows_of(&fused.triangles, 1), expected.triangles);
     assert_eq!(rows_of(&fused.vertices, 1), expected.vertices);
     followed.triangles.fused(a, b, &expected);
+    followed.vertices.fused(a, b, &expected);
     followed.edges.fused(a, b, &expected);
 }

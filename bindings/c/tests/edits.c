@@ -139,6 +139,22 @@ static void lists_are_followed(void) {
     refused(pliant_changes_fused(NULL, 0, 1, NULL, &error), &error, PLIANT_NULL, "changes");
     pliant_changes_free(changes);
     pliant_changes_free(NULL);
+
+    /* Numbers that an edit uses again are other things, of each kind by its list. */
+    for (int kind = 0; kind < 2; kind++) {
+        const uint32_t first[1] = {3}, second[1] = {5};
+        CHECK(pliant_changes_new(PLIANT_VERTEX_TRIANGLE, &changes, NULL) == PLIANT_OK);
+        CHECK(pliant_changes_update(changes, &two[0][0], 1, &changed, NULL) == PLIANT_OK);
+        pliant_edited edited;
+        memset(&edited, 0, sizeof edited);
+        pliant_list *again = kind == 0 ? &edited.new_vertices : &edited.new_triangles;
+        again->count = 1;
+        again->numbers = kind == 0 ? first : second;
+        CHECK(pliant_changes_edited(changes, kind == 0 ? 0 : 1, &edited, NULL) == PLIANT_OK);
+        CHECK(pliant_changes_update(changes, &two[0][0], 1, &changed, NULL) == PLIANT_OK);
+        CHECK(changed.began_count == 1 && changed.ended_count == 1 && changed.numbers[0] == 1);
+        pliant_changes_free(changes);
+    }
     pliant_world_free(world);
 }
 

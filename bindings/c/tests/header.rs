@@ -421,6 +421,11 @@ fn classes_do_what_they_should() {
 fn another_compiler_takes_it_all() {
     programs("clang", "clang++");
     classes("clang++");
+    let stand_in = stand_in();
+    let flags = [&CLASSES[..], &["-I", &stand_in]].concat();
+    let file = root().join("examples/ipc_lists.cpp");
+    // Without arguments it says how it is called, and ends with 2.
+    run("clang++", &flags, &file, &["sh", "-c", "$0 || test $? = 2"]);
 }
 
 #[test]

@@ -74,7 +74,13 @@ inline void check(pliant_status status, const pliant_error &error) {
     }
 }
 
-/* Refuses an array of another form: a count beside the one that is right. */
+/* Calls a function of pliant.h with these arguments, and an error behind. */
+template <class F, class... Arguments> void call(F function, Arguments... arguments) {
+    pliant_error error;
+    check(function(arguments..., &error), error);
+}
+
+/* Refuses an array of another form: a count that is not the right one. */
 inline void check_count(std::size_t count, std::size_t right, const char *words) {
     if (count != right) {
         pliant_error error{};
@@ -83,7 +89,7 @@ inline void check_count(std::size_t count, std::size_t right, const char *words)
         error.pair = UINT64_MAX;
         error.limit = right;
         error.count = count;
-        std::snprintf(error.message, sizeof error.message, words, count, right);
+        std::snprintf(error.message, sizeof error.message, "%zu %s; give %zu", count, words, right);
         refuse(error);
     }
 }
@@ -113,7 +119,7 @@ template <class A> auto rows_of(const A &array) {
         const std::ptrdiff_t size = sizeof(S);
         if (array.rows() != 0) {
             check_count(static_cast<std::size_t>(array.cols()), 3,
-                        "an array has %zu columns; give %zu, or the transpose");
+                        "columns in an array of rows of three, perhaps its transpose");
         }
         return Rows<S>{array.data(), static_cast<std::size_t>(array.rows()),
                        array.rowStride() * size, array.colStride() * size};
@@ -121,7 +127,7 @@ template <class A> auto rows_of(const A &array) {
         using R = std::remove_cv_t<std::remove_reference_t<decltype(*array.data())>>;
         const std::size_t count = array.size();
         if constexpr (std::is_arithmetic_v<R>) {
-            check_count(count % 3, 0, "a flat array has %zu numbers beyond rows of 3; give %zu");
+            check_count(count % 3, 0, "numbers too many in a flat array of rows of three");
             return Rows<R>{array.data(), count / 3, 3 * sizeof(R), sizeof(R)};
         } else {
             /* Rows of three numbers, as std::array<double, 3> has them. */
@@ -134,7 +140,7 @@ template <class A> auto rows_of(const A &array) {
                 const auto from = reinterpret_cast<std::uintptr_t>(array.data());
                 const auto at = reinterpret_cast<std::uintptr_t>(first);
                 const bool holds = at >= from && at + 3 * sizeof(S) <= from + sizeof(R);
-                check_count(holds ? 1 : 0, 1, "rows hold %zu of three numbers; they must (%zu)");
+                check_count(holds ? 1 : 0, 1, "rows of the first hold three numbers themselves");
             }
             return Rows<S>{first, count, static_cast<std::ptrdiff_t>(sizeof(R)), sizeof(S)};
         }
@@ -161,7 +167,7 @@ template <class A> std::vector<std::array<std::uint32_t, 2>> pairs_of(const A &a
     if constexpr (has_rows<A>::value) {
         if (array.rows() != 0) {
             check_count(static_cast<std::size_t>(array.cols()), 2,
-                        "an array of edges has %zu columns; give %zu");
+                        "columns in an array of edges");
         }
         for (auto row = array.rows() * 0; row < array.rows(); row++) {
             all.push_back({static_cast<std::uint32_t>(array(row, 0)),
@@ -225,8 +231,7 @@ class Pool {
 public:
     explicit Pool(std::uint32_t threads) {
         pliant_pool *made = nullptr;
-        pliant_error error;
-        detail::check(pliant_pool_new(threads, &made, &error), error);
+        detail::call(pliant_pool_new, threads, &made);
         pool_.reset(made);
     }
 
@@ -302,8 +307,7 @@ private:
     };
 
     template <class F, class... Arguments> void call(F function, Arguments... arguments) const {
-        pliant_error error;
-        detail::check(function(get(), arguments..., &error), error);
+        detail::call(function, get(), arguments...);
     }
 
     std::unique_ptr<pliant_edit, Free> edit_;
@@ -328,15 +332,13 @@ public:
             options.parallel_user = scheduler_.get();
         }
         pliant_world *made = nullptr;
-        pliant_error error;
-        detail::check(pliant_world_new(&options, &made, &error), error);
+        detail::call(pliant_world_new, &options, &made);
         world_.reset(made);
     }
 
     World clone() const {
         pliant_world *copy = nullptr;
-        pliant_error error;
-        detail::check(pliant_world_clone(get(), &copy, &error), error);
+        call(pliant_world_clone, &copy);
         return World(copy, scheduler_);
     }
 
@@ -360,7 +362,7 @@ public:
     /* Shapes of several bodies, all or none: rows of pliant::points. */
     void set_positions_of(const std::vector<std::uint32_t> &bodies,
                           const std::vector<pliant_points> &positions) {
-        detail::check_count(positions.size(), bodies.size(), "%zu shapes for %zu bodies");
+        detail::check_count(positions.size(), bodies.size(), "shapes, not one for each body");
         call(pliant_world_set_positions_of, bodies.data(), positions.data(), bodies.size());
     }
     template <class P> void set_motion(std::uint32_t body, const P &end) {
@@ -652,8 +654,7 @@ private:
     }
 
     template <class F, class... Arguments> void call(F function, Arguments... arguments) const {
-        pliant_error error;
-        detail::check(function(get(), arguments..., &error), error);
+        detail::call(function, get(), arguments...);
     }
 
     std::pair<std::size_t, std::size_t> counts(std::uint32_t body) const {
@@ -756,8 +757,7 @@ public:
     /* PLIANT_TRIANGLES to PLIANT_EDGE_TRIANGLE. */
     explicit Changes(std::uint32_t elements = PLIANT_TRIANGLES) {
         pliant_changes *made = nullptr;
-        pliant_error error;
-        detail::check(pliant_changes_new(elements, &made, &error), error);
+        detail::call(pliant_changes_new, elements, &made);
         changes_.reset(made);
     }
 
@@ -790,8 +790,7 @@ private:
     };
 
     template <class F, class... Arguments> void call(F function, Arguments... arguments) {
-        pliant_error error;
-        detail::check(function(changes_.get(), arguments..., &error), error);
+        detail::call(function, changes_.get(), arguments...);
     }
 
     std::unique_ptr<pliant_changes, Free> changes_;

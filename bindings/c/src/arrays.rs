@@ -1,6 +1,6 @@
 //! Arrays of numbers of the caller, read and written; and lists that the caller reads.
 
-use crate::status::{PliantStatus, Refused, TOO_LARGE, WRONG_LENGTH};
+use crate::status::{Refused, TOO_LARGE, WRONG_LENGTH};
 use std::ptr::null;
 
 /// `pliant_list`: rows of numbers that belong to the world.
@@ -127,12 +127,4 @@ pub(crate) fn countable(count: usize, name: &str) -> Result<(), Refused> {
     let mut refused = Refused::new(TOO_LARGE, words);
     (refused.0.count, refused.0.limit) = (count as u64, u32::MAX.into());
     Err(refused)
-}
-
-/// Refuses an option, selection or choice that is none.
-pub(crate) fn refused<T>(
-    status: PliantStatus,
-    words: impl std::fmt::Display,
-) -> Result<T, Refused> {
-    Err(Refused::new(status, words))
 }

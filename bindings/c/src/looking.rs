@@ -84,7 +84,7 @@ macro_rules! lists {
                 let rows = with_world!(&inside.world, $world => {
                     let rows = $list;
                     let count = rows.len();
-                    kept.extend(rows.into_iter().flatten());
+                    kept.extend(rows.flatten());
                     count
                 });
                 let mut list = PliantList::of(kept);
@@ -98,20 +98,22 @@ macro_rules! lists {
 }
 
 /// Rows of one number each.
-fn single<T: Into<u32>>(numbers: impl IntoIterator<Item = T>) -> Vec<[u32; 1]> {
-    numbers.into_iter().map(|it| [it.into()]).collect()
+fn single<T: Into<u32>>(
+    numbers: impl IntoIterator<Item = T, IntoIter: ExactSizeIterator>,
+) -> impl ExactSizeIterator<Item = [u32; 1]> {
+    numbers.into_iter().map(|it| [it.into()])
 }
 
 lists! {
     0, pliant_world_bodies(), |world| single(world.bodies().map(|it| it.0));
-    1, pliant_world_triangles(body: u32), |world| world.triangles(BodyId(body))?.to_vec();
-    2, pliant_world_edges(body: u32), |world| world.edges(BodyId(body))?.to_vec();
+    1, pliant_world_triangles(body: u32), |world| world.triangles(BodyId(body))?.iter().copied();
+    2, pliant_world_edges(body: u32), |world| world.edges(BodyId(body))?.iter().copied();
     3, pliant_world_vertex_order(body: u32),
         |world| single(world.vertex_order(BodyId(body))?.iter().copied());
     4, pliant_world_components(body: u32), |world| single(world.components(BodyId(body))?);
     5, pliant_world_vertex_groups(body: u32), |world| single(world.vertex_groups(BodyId(body))?);
     6, pliant_world_ignored(),
-        |world| world.ignored().into_iter().map(|pair| pair.map(|it| it.0)).collect::<Vec<_>>();
+        |world| world.ignored().into_iter().map(|pair| pair.map(|it| it.0));
     7, pliant_world_tree_cut(body: u32, level: u32),
         |world| single(world.tree_cut(BodyId(body), level)?);
     8, pliant_world_live_triangles(body: u32), |world| single(world.live_triangles(BodyId(body))?);

@@ -130,6 +130,7 @@ impl PliantOptions {
         };
         Ok(options)
     }
+
     /// Makes an empty world of these options.
     ///
     /// # Safety

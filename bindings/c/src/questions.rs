@@ -1,6 +1,6 @@
 //! Questions of a world: lists, first hits and visits, all by one query and one form of answer.
 
-use crate::arrays::{give, read, refused};
+use crate::arrays::{give, read};
 use crate::hits::{Columns, PliantHits, Row};
 use crate::status::{BAD_OPTION, PliantError, PliantStatus, Refused};
 use crate::world::{Inside, PliantWorld, inside, with_world};
@@ -102,7 +102,7 @@ impl PliantQuery {
         let asked = unsafe { read(query) }.unwrap_or(Self::ALL);
         if asked.how != ALL || asked.at_most != 0 || asked.visit.is_some() {
             let words = "query.how, at_most and visit are for lists; this has one answer: give 0";
-            return refused(BAD_OPTION, words);
+            return Err(Refused::new(BAD_OPTION, words));
         }
         Ok(asked.interrupt())
     }
@@ -123,7 +123,7 @@ fn answer<H: Row>(
     list.take::<H>(&[]);
     if asked.visit.is_some() && asked.at_most != 0 {
         let words = "query.at_most is for lists; a visitor ends the question itself";
-        return refused(BAD_OPTION, words);
+        return Err(Refused::new(BAD_OPTION, words));
     }
     match (asked.how, asked.visit) {
         (ALL, Some(visit)) => {
@@ -165,11 +165,11 @@ fn answer<H: Row>(
         (PREPARE, None) => query.prepare()?,
         (how, None) => {
             let words = format_args!("query.how is {how}; give one of PLIANT_ALL to _PREPARE");
-            return refused(BAD_OPTION, words);
+            return Err(Refused::new(BAD_OPTION, words));
         }
         (how, Some(_)) => {
             let words = format_args!("query.how is {how} with a visitor; give PLIANT_ALL");
-            return refused(BAD_OPTION, words);
+            return Err(Refused::new(BAD_OPTION, words));
         }
     }
     Ok(None)

@@ -154,7 +154,7 @@ int main() {
     world.set_positions(leaf, flat);
     CHECK(world.positions(leaf) == leaf_at);
     CHECK(holds(refused([&] { world.set_positions(leaf, odd); }), "flat"));
-    CHECK(holds(refused([&] { world.set_positions_of({leaf}, {}); }), "0 shapes for 1"));
+    CHECK(holds(refused([&] { world.set_positions_of({leaf}, {}); }), "0 shapes"));
 #ifdef HAS_EIGEN
     /* Columns of a matrix, which have a stride; edges as a matrix; the transpose, which is none. */
     Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> table(3, 4);

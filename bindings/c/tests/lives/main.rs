@@ -593,3 +593,86 @@ fn worlds_in_c_answer_as_worlds_in_rust() {
         life::<f64>(seed, |x| x);
     }
 }
+
+/// A value one byte behind an address that is aligned.
+#[repr(C, packed)]
+struct Misaligned<T> {
+    before: u8,
+    value: T,
+}
+
+fn misaligned<T>(value: T) -> Box<Misaligned<T>> {
+    Box::new(Misaligned { before: 0, value })
+}
+
+#[test]
+fn arrays_and_structures_need_no_alignment() {
+    let flat = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let positions = misaligned(flat);
+    let triangles = misaligned([[0_i64, 1, 2]]);
+    let points = PliantPoints {
+        data: (&raw const positions.value).cast(),
+        ..rows(&flat)
+    };
+    let faces = PliantFaces {
+        data: (&raw const triangles.value).cast(),
+        ..faces(&[[0, 1, 2]])
+    };
+    let options = misaligned(PliantOptions::default());
+    let query = misaligned(PliantQuery::ALL);
+    let of = misaligned([0_u32, 1]);
+    let shapes = misaligned([points; 2]);
+    let (mut hits, mut body) = (misaligned(PliantHits::NONE), misaligned(9));
+    let (mut changed, mut world) = (misaligned(PliantEdited::default()), null_mut());
+    // SAFETY: all arguments are there.
+    unsafe {
+        let (options, query) = (&raw const options.value, &raw const query.value);
+        assert_eq!(pliant_world_new(options, &raw mut world, null_mut()), 0);
+        for number in 0..2 {
+            let out = &raw mut body.value;
+            assert_eq!(pliant_world_add(world, faces, points, out, null_mut()), 0);
+            assert_eq!({ body.value }, number);
+        }
+        let (of, shapes) = (&raw const of.value, &raw const shapes.value);
+        let (of, shapes) = (of.cast(), shapes.cast());
+        let status = pliant_world_set_positions_of(world, of, shapes, 2, null_mut());
+        assert_eq!(status, 0);
+        let rest = shapes.cast();
+        assert_eq!(
+            pliant_world_set_rest_positions(world, 0, rest, null_mut()),
+            0
+        );
+        let out = &raw mut hits.value;
+        assert_eq!(pliant_world_intersections(world, query, out, null_mut()), 0);
+        assert_eq!({ hits.value }.count, 1);
+        let out = &raw mut changed.value;
+        assert_eq!(pliant_world_weld(world, 0, 0.0, query, out, null_mut()), 0);
+        pliant_world_free(world);
+        let corners: [PliantPoints; 4] = [points; 4];
+        let corners = misaligned(corners);
+        let mut distances = misaligned([9.0; 3]);
+        let (all, out) = (&raw const corners.value, &raw mut distances.value);
+        let (none, nothing) = (null_mut(), null_mut());
+        let status =
+            pliant_edge_edge_distances(all.cast(), out.cast(), none, none, nothing, null_mut());
+        assert_eq!((status, { distances.value }), (0, [0.0; 3]));
+        let mut changes = null_mut();
+        let mut told = misaligned(PliantChanged {
+            count: 9,
+            numbers: null_mut(),
+            began_count: 9,
+            began: null_mut(),
+            ended_count: 9,
+            ended: null_mut(),
+            ended_numbers: null_mut(),
+        });
+        assert_eq!(pliant_changes_new(0, &raw mut changes, null_mut()), 0);
+        let out = &raw mut told.value;
+        let status = pliant_changes_update(changes, of.cast(), 0, out, null_mut());
+        assert_eq!((status, { told.value }.count), (0, 0));
+        let edited = &raw const changed.value;
+        assert_eq!(pliant_changes_edited(changes, 0, edited, null_mut()), 0);
+        pliant_changes_free(changes);
+    }
+    assert_eq!(options.before + query.before, 0);
+}

@@ -15,6 +15,7 @@ mod length;
 pub mod motion;
 mod orientation;
 mod point;
+mod ray;
 pub mod reference;
 mod ring;
 mod triangles;
@@ -33,6 +34,7 @@ use lattice::on_lattice;
 pub use length::Length;
 use orientation::{Certain, Filtered, Orientation};
 pub use point::{Point, Triangle};
+pub use ray::{Axis, Crossing, crossing};
 use std::cmp::Ordering;
 
 /// Whether a triangle has no area: its corners lie on a line, or in a point.

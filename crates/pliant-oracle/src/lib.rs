@@ -6,6 +6,7 @@
 //! - [`intersect`], [`contact_kind`], [`orientation`] and [`compare_distance`] decide about
 //!   triangles and points at rest.
 //! - [`meet_until`], [`first_contact`] and [`compare_first`] decide about elements in motion.
+//! - [`winding_number`] decides whether a point is inside a closed surface.
 //! - [`Class`] generates hard pairs of triangles, and [`MotionClass`] hard motions. Both give the
 //!   same ones on every machine.
 //! - [`subnormals_flushed`] runs code in a thread whose caller has switched subnormal numbers off.
@@ -26,6 +27,7 @@ mod integers;
 mod intersection;
 mod motion;
 mod pairs;
+mod winding;
 
 pub use adjacent::adjacent_contact;
 pub use distance::{compare_distance, compare_dot, compare_length};
@@ -36,6 +38,7 @@ pub use motion::{
     motion_fits_f32,
 };
 pub use pairs::{Class, Random, element_pairs, fits_f32};
+pub use winding::winding_number;
 
 use hull::{cross, determinant, minus, zero_in_hull, zero_inside, zero_inside_of_plane};
 use integers::{Exact, Scaled, Vector, scale};

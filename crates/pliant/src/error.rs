@@ -201,6 +201,21 @@ pub enum ErrorKind {
         /// The vertex that was to be split.
         vertex: u32,
     },
+    /// A body has no inside, because its surface is not [closed](crate::World::watertight).
+    NotClosed {
+        /// Some of the edges at which it is not, each by its two vertices.
+        edges: Vec<[u32; 2]>,
+        /// How many there are.
+        count: usize,
+    },
+    /// A coordinate of a point is NaN, infinite, or larger than `f32::MAX` in magnitude. Or this
+    /// thread takes it for zero, because it flushes subnormal numbers.
+    BadPoint {
+        /// The point, counted from 0.
+        point: usize,
+        /// Where it is.
+        position: [f64; 3],
+    },
     /// The mesh was changed since [`World::edit`](crate::World::edit) began this edit, or another
     /// world began it.
     OutdatedEdit,
@@ -353,7 +368,7 @@ impl ErrorKind {
                 pair,
                 corner,
                 position,
-            } if position.iter().all(|x| x.abs() <= f64::from(f32::MAX)) => write!(
+            } if are_in_range(position) => write!(
                 f,
                 "corner {corner} of pair {pair} is at {position:?}, of which this thread takes a \
                  coordinate for zero, because it flushes subnormal numbers; switch flush-to-zero \
@@ -369,6 +384,27 @@ impl ErrorKind {
                  at most {:e} in magnitude",
                 f32::MAX
             ),
+            Self::BadPoint { point, position } if are_in_range(position) => write!(
+                f,
+                "point {point} is at {position:?}, of which this thread takes a coordinate for \
+                 zero, because it flushes subnormal numbers; switch flush-to-zero and \
+                 denormals-are-zero off, or make the coordinate zero"
+            ),
+            Self::BadPoint { point, position } => write!(
+                f,
+                "point {point} is at {position:?}; coordinates must be finite and at most {:e} in \
+                 magnitude",
+                f32::MAX
+            ),
+            Self::NotClosed { edges, count } => {
+                let named: Vec<String> = edges.iter().map(|[a, b]| format!("{a}-{b}")).collect();
+                write!(
+                    f,
+                    "has no inside, for its surface is not closed at {count} edges, such as {}; \
+                     watertight() lists all; close holes, weld seams, turn neighbours alike",
+                    named.join(", ")
+                )
+            }
             Self::BadWidth { width } => write!(
                 f,
                 "the width of time intervals is {width}; give a finite number that is at least 0"
@@ -445,4 +481,9 @@ impl ErrorKind {
             _ => Ok(()),
         }
     }
+}
+
+/// Whether coordinates are wrong for another reason than their size.
+fn are_in_range(position: &[f64; 3]) -> bool {
+    position.iter().all(|x| x.abs() <= f64::from(f32::MAX))
 }

@@ -129,6 +129,7 @@ mod labels;
 mod mesh;
 mod options;
 mod pairs;
+mod points;
 mod queries;
 mod selection;
 mod sort;
@@ -154,6 +155,7 @@ pub use ids::BodyId;
 #[doc(hidden)]
 pub use kernels::Instructions;
 pub use labels::Labels;
+pub use mesh::Watertight;
 pub use options::{BroadPhase, Degree, Options, Partition, Update};
 pub use pairs::{
     PairDistance, edge_edge_distances, edge_edge_impacts, triangle_contacts,
@@ -162,13 +164,17 @@ pub use pairs::{
 #[doc(hidden)]
 pub use pairs::{pair_distances, pair_impacts};
 pub use pliant_exact::{End, Feature};
+pub use points::{ClosestPoint, InsideRule, Located, Side};
 pub use queries::hits::*;
 pub use selection::Selection;
 pub use statistics::Statistics;
 pub use threads::Scheduler;
 #[doc(hidden)]
 pub use threads::{Clock, RecordedPart};
-pub use world::{FreeStep, Fused, InContact, Interruptible, Piece, Query, Scalar, World};
+pub use world::{
+    Contained, Containment, Depth, FreeStep, Fused, InContact, Interruptible, Piece, Query, Scalar,
+    World,
+};
 
 /// Brute-force references of every kind of question: slow, and obviously right.
 ///

@@ -7,6 +7,7 @@
 //! known from minimum-distance tests (Ericson 2005, chapter 5); here they are compared exactly.
 
 mod features;
+mod nearest;
 mod triangles;
 
 use super::Feature::{self, Corner, Edge, Inside};
@@ -16,6 +17,7 @@ use super::ring::Ring;
 use super::vector::{Vector, cross, dot, in_units, minus};
 use super::{Length, Point, denormals_are_kept};
 pub use features::closest_features;
+pub use nearest::nearest_triangle;
 pub use triangles::point_in_common;
 pub use triangles::{SomePoints, TrianglesClosest, are_triangles_within, closest_triangles};
 

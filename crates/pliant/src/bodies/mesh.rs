@@ -8,7 +8,7 @@ use crate::geometry::Points;
 use crate::held::{self, held};
 use crate::ids::{BodyId, TreeTriangle, TreeVertex};
 use crate::kernels::Coordinate;
-use crate::mesh::{Bits, EMPTY, Elements, Order, Stars, Topology, TrianglesAt};
+use crate::mesh::{Bits, EMPTY, Elements, Order, Stars, Topology, TrianglesAt, Watertight};
 use crate::queries::{OwnEdges, Removed};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -26,6 +26,8 @@ pub(crate) struct BodyMesh<S> {
     edges_were_known: bool,
     /// Stars of vertices. Made when first needed.
     stars: OnceLock<Box<Stars>>,
+    /// Edges at which the mesh is not closed. Made when first needed.
+    watertight: OnceLock<Box<Watertight>>,
     /// Lists that edits need. Present once the mesh was edited.
     edits: Option<Box<Edits<S>>>,
     /// Version of the mesh: counts its changes.
@@ -95,6 +97,7 @@ impl<S: Coordinate> BodyMesh<S> {
             elements: OnceLock::new(),
             edges_were_known: false,
             stars: OnceLock::new(),
+            watertight: OnceLock::new(),
             edits: None,
             version: 0,
             order_version: 0,
@@ -116,6 +119,7 @@ impl<S: Coordinate> BodyMesh<S> {
             elements: known.map_or_else(OnceLock::new, |known| OnceLock::from(known.clone())),
             edges_were_known: self.edges_are_known(),
             stars: OnceLock::new(),
+            watertight: self.watertight.clone(),
             edits: self.edits.clone(),
             ..*self
         }
@@ -333,6 +337,12 @@ impl<S: Coordinate> BodyMesh<S> {
         })
     }
 
+    /// Edges at which the mesh is not closed. Computed the first time.
+    pub(crate) fn watertight(&self) -> &Watertight {
+        let make = || Box::new(Watertight::of(self.triangles()));
+        self.watertight.get_or_init(make)
+    }
+
     /// A new shape from positions, in which empty vertices are put where another vertex is.
     pub(crate) fn new_shape<'n>(&'n mut self, positions: &'n [[S; 3]]) -> NewShape<'n, S> {
         let empty = self.empty_count();
@@ -396,5 +406,6 @@ held!(Edits<S>: places[], slots[], at, gone, empty, patched[]; |edits| {
 held!(BodyMesh<S>: topology, order; |mesh| {
     held::boxes(mesh.elements.get())
         + held::boxes(mesh.stars.get())
+        + held::boxes(mesh.watertight.get())
         + held::boxes(&mesh.edits)
 });

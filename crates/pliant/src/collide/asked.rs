@@ -203,7 +203,7 @@ impl<S: Coordinate> Common<S> {
     }
 
     /// Step of a query, or of work done early, with the bodies it works on and the finder of pairs.
-    pub(super) fn step<'q>(
+    pub(crate) fn step<'q>(
         &'q mut self,
         needs: Needs,
         interrupt: &'q Interrupt<'q>,

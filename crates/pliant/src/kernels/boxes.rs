@@ -174,6 +174,59 @@ pub(crate) fn overlap_mask<I: Simd, const N: usize>(i: I, a: &BoxLanes<N>, b: &B
     mask
 }
 
+/// Overlap mask of N boxes against one box, in registers: as [`BoxLanes::overlaps`].
+#[inline(always)]
+pub(crate) fn lanes_overlapping<I: Simd, const N: usize>(
+    i: I,
+    lanes: &BoxLanes<N>,
+    query: &Aabb,
+) -> u64 {
+    let Registers { lo, hi } = Registers::new(i, lanes);
+    let x = lo[0].simd_le(query.hi[0]) & hi[0].simd_ge(query.lo[0]);
+    let y = lo[1].simd_le(query.hi[1]) & hi[1].simd_ge(query.lo[1]);
+    let z = lo[2].simd_le(query.hi[2]) & hi[2].simd_ge(query.lo[2]);
+    (x & y & z).to_bitmask()
+}
+
+/// How well each of N boxes promises to hold what is near a box, computed plainly: the less, the
+/// better. NaN for an empty lane.
+///
+/// The square of the gap, and of boxes that overlap it the one that ends nearest.
+#[inline(always)]
+pub(crate) fn promises<I: Simd, const N: usize>(
+    i: I,
+    lanes: &BoxLanes<N>,
+    query: &Aabb,
+) -> [f32; 8] {
+    let Registers { lo, hi } = Registers::new(i, lanes);
+    let zero = f32x8::splat(i, 0.0);
+    let mut sum = zero;
+    for axis in 0..3 {
+        let below = lo[axis] - query.hi[axis];
+        let above = f32x8::splat(i, query.lo[axis]) - hi[axis];
+        // The gap is the larger one, or zero; the way to the farther side the smaller one.
+        let is_below = below.simd_gt(above);
+        let (gap, far) = (is_below.select(below, above), is_below.select(above, below));
+        let gap = gap.simd_gt(zero).select(gap, zero);
+        sum += gap * gap + far * far * 2.0_f32.powi(-16);
+    }
+    let mut promises = [0.0; 8];
+    sum.store_array(&mut promises);
+    promises
+}
+
+/// The lane of the least number; the first lane is one, others may be NaN.
+#[inline(always)]
+pub(crate) fn least_of(numbers: [f32; 8]) -> usize {
+    let mut least = 0;
+    for lane in 1..8 {
+        if numbers[lane] < numbers[least] {
+            least = lane;
+        }
+    }
+    least
+}
+
 /// Proximity mask: bit `8 i + j` is set unless lane i of `a` and lane j of `b` are surely too far
 /// apart.
 ///
@@ -194,23 +247,55 @@ pub(crate) fn near_mask<I: Simd, const N: usize>(
     [len_a, len_b]: [usize; 2],
     limit: f64,
 ) -> u64 {
-    let most = (limit * (1.0 + f64::powi(0.5, 20)) + f64::powi(0.5, 100)) as f32;
-    let (zero, most) = (f32x8::splat(i, 0.0), f32x8::splat(i, most.next_up()));
+    let most = at_most(limit);
     let b = Registers::new(i, b);
     let columns = u64::MAX >> (64 - len_b);
     let mut mask = 0;
     for lane in 0..len_a {
-        let mut square = zero;
-        for axis in 0..3 {
-            let below = b.lo[axis] - a.hi[axis][lane];
-            let above = f32x8::splat(i, a.lo[axis][lane]) - b.hi[axis];
-            let gap = below.simd_gt(zero).select(below, zero);
-            let gap = above.simd_gt(zero).select(above, gap);
-            square += gap * gap;
-        }
-        mask |= (square.simd_le(most).to_bitmask() & columns) << (8 * lane);
+        mask |= (near_one(&b, &a.get(lane), most) & columns) << (8 * lane);
     }
     mask
+}
+
+/// Proximity mask of the first `len_a` of eight boxes, each with a limit from [`at_most`], and
+/// eight: as [`near_mask`]. Empty lanes of `b` are near nothing.
+#[inline(always)]
+pub(crate) fn near_mask_each<I: Simd>(
+    i: I,
+    a: &EightBoxes,
+    b: &EightBoxes,
+    len_a: usize,
+    limits: &[f32; 8],
+) -> u64 {
+    let b = Registers::new(i, b);
+    let columns = b.lo[0].simd_eq(b.lo[0]).to_bitmask();
+    let mut mask = 0;
+    for lane in 0..len_a {
+        mask |= (near_one(&b, &a.get(lane), limits[lane]) & columns) << (8 * lane);
+    }
+    mask
+}
+
+/// A limit of squares in `f32`, enlarged as [`near_mask`] says.
+#[inline(always)]
+pub(crate) fn at_most(limit: f64) -> f32 {
+    ((limit * (1.0 + f64::powi(0.5, 20)) + f64::powi(0.5, 100)) as f32).next_up()
+}
+
+/// Lanes whose gap from one box has at most this square. Any answer for empty lanes.
+#[inline(always)]
+fn near_one<I: Simd>(lanes: &Registers<I>, one: &Aabb, most: f32) -> u64 {
+    let i = lanes.lo[0].token();
+    let zero = f32x8::splat(i, 0.0);
+    let mut square = zero;
+    for axis in 0..3 {
+        let below = lanes.lo[axis] - one.hi[axis];
+        let above = f32x8::splat(i, one.lo[axis]) - lanes.hi[axis];
+        let gap = below.simd_gt(zero).select(below, zero);
+        let gap = above.simd_gt(zero).select(above, gap);
+        square += gap * gap;
+    }
+    square.simd_le(most).to_bitmask()
 }
 
 /// Loads N numbers into eight lanes. The rest is empty.
@@ -279,6 +364,11 @@ mod tests {
         for instructions in Instructions::all() {
             let mask = dispatch!(instructions, i => overlap_mask(i, &a, &b));
             assert_eq!(mask, a.overlaps_all(&b), "{instructions:?}");
+            for lane in 0..8 {
+                let one = a.get(lane);
+                let mask = dispatch!(instructions, i => lanes_overlapping(i, &b, &one));
+                assert_eq!(mask, b.overlaps(&one), "{instructions:?} {lane}");
+            }
         }
         for i in 0..8 {
             assert_eq!(

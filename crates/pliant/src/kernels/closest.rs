@@ -13,7 +13,7 @@ use crate::geometry::Real;
 use crate::geometry::vector::{Vector, cross, difference, dot, minus, plus, square_of, times};
 use fearless_simd::prelude::*;
 use fearless_simd::{Select, Simd, f32x8, f64x4};
-use pliant_exact::{ELEMENT_PAIRS, FIRST_OF_EDGES, four_corners, is_swapped};
+use pliant_exact::{ELEMENT_PAIRS, FIRST_OF_EDGES, Feature, four_corners, is_swapped};
 
 /// The four corners of a pair of elements, each with padding.
 pub(crate) type FourCorners<'q, S> = [&'q [S; 4]; 4];
@@ -228,6 +228,82 @@ fn edges_and_edges<I: Simd, V: Lanes<I>>(
     bounds(i, [x, y], way, least, [t, e, f])
 }
 
+/// Part of the triangle that certainly has the closest point of four points and triangles, if one
+/// does; in double precision.
+///
+/// By Voronoi regions and their signs, as `pliant_exact::distance::closest_features` finds them,
+/// with the same bound on roundings, and four side by side.
+#[inline(always)]
+pub(crate) fn certain_parts<I: Simd, S: Real>(
+    i: I,
+    pairs: &[FourCorners<S>; 4],
+) -> [Option<Feature>; 4] {
+    let p = lanes(i, pairs, 0);
+    let corners = [lanes(i, pairs, 1), lanes(i, pairs, 2), lanes(i, pairs, 3)];
+    let edges = [
+        minus(corners[1], corners[0]),
+        minus(corners[2], corners[1]),
+        minus(corners[0], corners[2]),
+    ];
+    let ways = [
+        minus(p, corners[0]),
+        minus(p, corners[1]),
+        minus(p, corners[2]),
+    ];
+    let of_edges = [size(edges[0]), size(edges[1]), size(edges[2])];
+    let of_ways = [size(ways[0]), size(ways[1]), size(ways[2])];
+    let n = cross(edges[0], edges[1]);
+    let of_plane = of_edges[0] * of_edges[1];
+    let sum = of_edges[0] + of_edges[1] + of_ways[0] + of_ways[1] + of_ways[2];
+    let known = sum.simd_lt(f64::from_bits((1023 + 101) << 52)).to_bitmask();
+    // What is certainly above 0, and what below, a bit for each lane.
+    let (mut ahead, mut behind, mut sides) = ([[0; 2]; 3], [[0; 2]; 3], [[0; 2]; 3]);
+    for k in 0..3 {
+        let next = (k + 1) % 3;
+        ahead[k] = signs(dot(edges[k], ways[k]), of_edges[k] * of_ways[k]);
+        behind[k] = signs(dot(edges[k], ways[next]), of_edges[k] * of_ways[next]);
+        let x = dot(cross(edges[k], ways[k]), n);
+        sides[k] = signs(x, of_edges[k] * of_ways[k] * of_plane);
+    }
+    let mut parts = [None; 4];
+    let inside = known & sides[0][0] & sides[1][0] & sides[2][0];
+    for (lane, part) in parts.iter_mut().enumerate() {
+        if inside >> lane & 1 == 1 {
+            *part = Some(Feature::Inside);
+        }
+    }
+    for k in 0..3 {
+        let edge = known & sides[k][1] & ahead[k][0] & behind[k][1];
+        let corner = known & ahead[k][1] & behind[(k + 2) % 3][0];
+        for (lane, part) in parts.iter_mut().enumerate() {
+            if edge >> lane & 1 == 1 {
+                *part = Some(Feature::Edge(k));
+            }
+            if corner >> lane & 1 == 1 {
+                *part = Some(Feature::Corner(k));
+            }
+        }
+    }
+    parts
+}
+
+/// Sum of absolute coordinates.
+#[inline(always)]
+fn size<I: Simd>(way: Vector<f64x4<I>>) -> f64x4<I> {
+    way[0].abs() + way[1].abs() + way[2].abs()
+}
+
+/// Lanes that are certainly above 0, and lanes that are certainly below, of products whose factors
+/// have a product of sizes. See `pliant_exact::distance::closest_features`.
+#[inline(always)]
+fn signs<I: Simd>(x: f64x4<I>, size: f64x4<I>) -> [u64; 2] {
+    let error = size * (16.0 * f64::EPSILON) + f64::from_bits((1023 - 780) << 52);
+    [
+        x.simd_gt(error).to_bitmask(),
+        (x + error).simd_lt(0.0).to_bitmask(),
+    ]
+}
+
 /// Closest points of two triangles, and bounds of their distance, if they do not intersect.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TwoClosest {
@@ -340,8 +416,39 @@ pub(crate) fn decide_eight<I: Simd, S: Coordinate>(
     pairs: &[FourCorners<S>; 8],
     limits: &[[f32; 8]; 2],
 ) -> [u64; 2] {
+    let found = eight(i, are_edges, pairs);
+    let [below, above] = limits
+        .each_ref()
+        .map(|lanes| f32x8::load_array_ref(i, lanes));
+    let is_close = found.most.simd_le(below);
+    let is_far = found.least.simd_gt(above);
+    [is_close.to_bitmask(), is_far.to_bitmask()]
+}
+
+/// Bounds of the distances of eight points from triangles, in single precision: lower, then upper.
+///
+/// As in [`decide_eight`]; infinite where nothing is certain.
+#[inline(always)]
+pub(crate) fn bound_eight<I: Simd, S: Coordinate>(
+    i: I,
+    pairs: &[FourCorners<S>; 8],
+) -> [[f32; 8]; 2] {
+    let found = eight(i, false, pairs);
+    let mut bounds = [[0.0; 8]; 2];
+    found.least.store_array(&mut bounds[0]);
+    found.most.store_array(&mut bounds[1]);
+    bounds
+}
+
+/// Closest points of eight pairs in single precision, and bounds.
+#[inline(always)]
+fn eight<I: Simd, S: Coordinate>(
+    i: I,
+    are_edges: bool,
+    pairs: &[FourCorners<S>; 8],
+) -> Found<f32x8<I>> {
     let less = |k: usize, l: usize| eight_differences(i, |lane| [pairs[lane][k], pairs[lane][l]]);
-    let found = if are_edges {
+    if are_edges {
         let (t, e, f) = (less(0, 2), less(1, 0), less(3, 2));
         let (t10, t01) = (plus(t, e), minus(t, f));
         edges_and_edges(i, [t, t10, t01, minus(t10, f)], [e, f])
@@ -349,13 +456,7 @@ pub(crate) fn decide_eight<I: Simd, S: Coordinate>(
         let (t, e1, e2) = (less(0, 1), less(2, 1), less(3, 1));
         let differences = [t, minus(t, e1), minus(t, e2)];
         vertices_and_triangles(i, differences, [e1, e2, minus(e2, e1)])
-    };
-    let [below, above] = limits
-        .each_ref()
-        .map(|lanes| f32x8::load_array_ref(i, lanes));
-    let is_close = found.most.simd_le(below);
-    let is_far = found.least.simd_gt(above);
-    [is_close.to_bitmask(), is_far.to_bitmask()]
+    }
 }
 
 /// Bounds of a distance, rounded outward.

@@ -45,7 +45,10 @@ pub(crate) mod ring;
 pub(crate) mod signs;
 mod stars;
 
-pub(crate) use boxes::{BoxLanes, EightBoxes, near_mask, overlap_mask};
+pub(crate) use boxes::{
+    BoxLanes, EightBoxes, at_most, lanes_overlapping, least_of, near_mask, near_mask_each,
+    overlap_mask, promises,
+};
 pub(crate) use buffer::Buffer;
 pub(crate) use capsules::{EightCapsules, Volumes, cull_by_capsules};
 pub(crate) use coordinate::{Coordinate, TrianglePairs};

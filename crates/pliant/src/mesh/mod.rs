@@ -9,6 +9,7 @@ mod order;
 mod stars;
 mod topology;
 mod triangles_at;
+mod watertight;
 mod weld;
 
 pub(crate) use bits::Bits;
@@ -19,4 +20,5 @@ pub(crate) use order::{Moved, Order, OrderBuilder};
 pub(crate) use stars::{Stars, opposite};
 pub(crate) use topology::{EMPTY, Topology, share_a_vertex, validate};
 pub(crate) use triangles_at::TrianglesAt;
+pub use watertight::Watertight;
 pub(crate) use weld::{Nearness, coinciding};

@@ -31,6 +31,8 @@ impl Grain {
     pub(crate) const RUNS: Self = Self::of(256, 8_000);
     /// Close pairs that are measured.
     pub(crate) const MEASURED: Self = Self::of(1_024, 30_000);
+    /// Points of the caller, of which a ray or the nearest triangles are looked at.
+    pub(crate) const RAYS: Self = Self::of(512, 60_000);
     /// Hits that are more than their numbers, in either of the two passes of their sort.
     pub(crate) const LISTED: Self = Self::of(512, 20_000);
     /// Keys of hits, in either of the two passes of their sort.

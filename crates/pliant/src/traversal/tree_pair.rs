@@ -60,7 +60,7 @@ impl<S: Coordinate> Side<'_, S> {
 
     /// Read-only view, for tasks.
     #[inline]
-    fn view(&self) -> View<'_, S> {
+    pub(crate) fn view(&self) -> View<'_, S> {
         View {
             read: &self.read,
             boxes: self.boxes,

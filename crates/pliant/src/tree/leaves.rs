@@ -83,7 +83,7 @@ impl Leaves {
     }
 
     /// Returns the triangles of all leaves, as places in tree order.
-    pub(super) fn all_triangles(&self) -> Range<usize> {
+    pub(crate) fn all_triangles(&self) -> Range<usize> {
         let end = self.runs.last().map_or(self.first.0, |leaf| leaf.end);
         self.first.index()..end as usize
     }

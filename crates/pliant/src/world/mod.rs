@@ -17,6 +17,14 @@ mod kinds;
 
 mod distance;
 
+mod inside;
+
+mod contained;
+
+mod closest;
+
+mod depth;
+
 mod clearance;
 
 mod interruptible;
@@ -42,6 +50,8 @@ mod scalar;
 mod state;
 mod verbs;
 
+pub use contained::{Contained, Containment};
+pub use depth::Depth;
 pub use free_step::{FreeStep, InContact};
 pub use handle::World;
 pub use interruptible::Interruptible;

@@ -7,6 +7,7 @@ use crate::error::{Error, ErrorKind};
 use crate::ids::BodyId;
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::Options;
+use crate::points::Hints;
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Grain, Interrupt, Threads};
 use crate::traversal::Scratch;
@@ -21,6 +22,7 @@ pub(crate) struct State<S: Coordinate> {
     pub(super) kinds: Kinds<S>,
     pub(super) witnesses: Witnesses,
     pub(super) distances: Distances,
+    pub(super) hints: Hints,
     /// Shape that is not a body's yet: `write_positions` lends it, `advance_motion` writes it.
     pub(super) lent: Vec<[S; 3]>,
     /// Number of this world, unique in the process.
@@ -52,6 +54,7 @@ impl<S: Coordinate> State<S> {
             kinds: Kinds::default(),
             witnesses: Witnesses::default(),
             distances: Distances::default(),
+            hints: Hints::default(),
             lent: Vec::new(),
             number: WORLDS.fetch_add(1, Ordering::Relaxed),
         }
@@ -86,6 +89,7 @@ impl<S: Coordinate> State<S> {
     pub(super) fn forget_answers(&mut self, id: BodyId) {
         self.witnesses.forget(id);
         self.distances.last.forget(id);
+        self.hints.forget(id);
     }
 
     /// Validates a new shape of a body and takes it over.
@@ -178,6 +182,7 @@ impl<S: Coordinate> State<S> {
                 Ok(()) if options.mending && body.mend(options) => {
                     self.witnesses.forget(body.id());
                     self.distances.last.forget(body.id());
+                    self.hints.forget(body.id());
                 }
                 Ok(()) => {}
                 Err(kind) => ended = ended.and(Err((body.id(), kind))),

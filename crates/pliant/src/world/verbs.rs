@@ -15,6 +15,10 @@ use crate::error::{Error, ErrorKind};
 use crate::held::{self, Held};
 use crate::ids::BodyId;
 use crate::kernels::Coordinate;
+use crate::points::{
+    ClosestPoint, Nearest, Winding, check_points, find_nearest, find_nearest_of_all, measure,
+    windings,
+};
 use crate::queries::{CloseTriangles, Impact, NearestPair, Pair};
 use crate::selection::Selection;
 use crate::threads::{Interrupt, Question};
@@ -66,6 +70,19 @@ pub(crate) trait Verbs<S: Coordinate>: AskAll {
         min_distance: f64,
         question: Option<Question>,
     ) -> Result<f64, Error>;
+    fn windings(
+        &mut self,
+        body: BodyId,
+        points: &[[S; 3]],
+        question: Option<Question>,
+    ) -> Result<Vec<Winding>, Error>;
+    fn closest_points(
+        &mut self,
+        points: &[[S; 3]],
+        of: Option<BodyId>,
+        cut_off: f64,
+        question: Option<Question>,
+    ) -> Result<Vec<Option<ClosestPoint>>, Error>;
     fn memory_usage(&self) -> usize;
     fn validate(&self) -> Result<(), String>;
 }
@@ -289,6 +306,45 @@ impl<S: Coordinate> Verbs<S> for State<S> {
         self.kinds.impacts.free_step(&mut self.common, &request)
     }
 
+    fn windings(
+        &mut self,
+        body: BodyId,
+        points: &[[S; 3]],
+        question: Option<Question>,
+    ) -> Result<Vec<Winding>, Error> {
+        check_points(points)?;
+        let interrupt = Interrupt::new(question);
+        self.common.statistics = std::mem::take(&mut self.common.done_early);
+        windings(&mut self.common, body, points, &interrupt)
+    }
+
+    fn closest_points(
+        &mut self,
+        points: &[[S; 3]],
+        of: Option<BodyId>,
+        cut_off: f64,
+        question: Option<Question>,
+    ) -> Result<Vec<Option<ClosestPoint>>, Error> {
+        check(cut_off)?;
+        check_points(points)?;
+        let interrupt = Interrupt::new(question);
+        let common = &mut self.common;
+        common.statistics = std::mem::take(&mut common.done_early);
+        let mut nearest = vec![Nearest::within(cut_off); points.len()];
+        match of {
+            Some(body) => {
+                self.hints.give(body, &mut nearest);
+                find_nearest(common, body, points, &mut nearest, &interrupt)?;
+                self.hints.take(body, &nearest);
+            }
+            None => find_nearest_of_all(common, points, &mut nearest, &interrupt)?,
+        }
+        let how = (common.instructions, common.executor(&interrupt));
+        let measured = measure(how, points, &nearest, cut_off);
+        common.end(&interrupt)?;
+        Ok(measured)
+    }
+
     fn memory_usage(&self) -> usize {
         let Common {
             bodies,
@@ -303,6 +359,7 @@ impl<S: Coordinate> Verbs<S> for State<S> {
             + self.kinds.held()
             + self.witnesses.held()
             + self.distances.held()
+            + self.hints.held()
             + held::list(&self.lent)
     }
 

@@ -35,6 +35,7 @@ mod free_step;
 mod hashes;
 mod hit_rows;
 mod impacts;
+mod inside;
 mod labels;
 mod layers;
 mod mending;

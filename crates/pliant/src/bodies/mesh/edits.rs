@@ -177,6 +177,7 @@ impl<S: Coordinate> BodyMesh<S> {
             self.elements(&|| false);
         }
         self.version += 1;
+        self.watertight.take();
         let (topology, changed) = (&mut self.topology, &outcome.changed);
         let Some(edits) = &mut self.edits else {
             return;

@@ -8,7 +8,8 @@
 //!   processor change nothing.
 //! - **Within a body**, pairs of triangles that share a vertex of the mesh are left out. Vertices
 //!   with different numbers are different, wherever they are: the library welds nothing unasked.
-//! - **Surfaces, not volumes**: a body wholly inside another meets no triangle of it.
+//! - **Surfaces, not volumes**: a body wholly inside another meets no triangle of it. Whether it is
+//!   inside is asked by [`World::contained`].
 //! - **All hits** are one set, sorted. **The first hit** is some member of it. Whether there is one
 //!   never depends on options or history; which one it is may.
 //! - **An answer is an error** if a body is not there, the caller interrupts the query, or a list
@@ -62,6 +63,11 @@
 //!   [`close_triangle_pairs`](World::close_triangle_pairs).
 //! - **Distances**: [`World::distance`], [`nearest_body`](World::nearest_body),
 //!   [`clearance`](World::clearance).
+//! - **Inside**: [`World::points_inside`], [`inside`](World::inside), [`Located`], [`InsideRule`].
+//!   What has an inside: [`watertight`](World::watertight), [`Watertight`]. Bodies in bodies:
+//!   [`contained`](World::contained). How deep: [`depth`](World::depth), [`Depth`].
+//! - **Closest points**: [`World::closest_points`],
+//!   [`signed_closest_points`](World::signed_closest_points), [`ClosestPoint`].
 //! - **Motions**: [`World::set_motion`], [`finish_motion`](World::finish_motion),
 //!   [`advance_motion`](World::advance_motion).
 //! - **Impacts**: [`World::vertex_triangle_impacts`],

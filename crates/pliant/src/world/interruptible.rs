@@ -1,11 +1,14 @@
 //! Interruption of questions with one answer, and of other calls that take long.
 
+use super::contained::Containment;
+use super::depth::Depth;
 use super::free_step::FreeStep;
 use super::handle::World;
 use super::scalar::Scalar;
 use crate::edit::Edited;
 use crate::error::Error;
 use crate::ids::BodyId;
+use crate::points::{ClosestPoint, InsideRule, Located};
 use crate::queries::{CloseTriangles, Impact};
 use crate::selection::Selection;
 use crate::threads::Question;
@@ -124,6 +127,79 @@ impl<S: Scalar> Interruptible<'_, S> {
         cut_off: f64,
     ) -> Result<BTreeMap<BodyId, Vec<f64>>, Error> {
         self.world.find_clearance(of, cut_off, Some(self.question))
+    }
+
+    /// [`World::points_inside`](crate::World::points_inside).
+    ///
+    /// # Errors
+    ///
+    /// See [`Interruptible`].
+    pub fn points_inside(
+        self,
+        points: &[[S; 3]],
+        body: BodyId,
+        rule: InsideRule,
+    ) -> Result<Vec<Located>, Error> {
+        let question = Some(self.question);
+        self.world.find_points_inside(points, body, rule, question)
+    }
+
+    /// [`World::inside`](crate::World::inside).
+    ///
+    /// # Errors
+    ///
+    /// See [`Interruptible`].
+    pub fn inside(self, a: BodyId, b: BodyId, rule: InsideRule) -> Result<Vec<Located>, Error> {
+        self.world.find_inside(a, b, rule, Some(self.question))
+    }
+
+    /// [`World::contained`](crate::World::contained).
+    ///
+    /// # Errors
+    ///
+    /// See [`Interruptible`].
+    pub fn contained(self, of: Selection) -> Result<Containment, Error> {
+        self.world.find_contained(of, Some(self.question))
+    }
+
+    /// [`World::closest_points`](crate::World::closest_points).
+    ///
+    /// # Errors
+    ///
+    /// See [`Interruptible`].
+    pub fn closest_points(
+        self,
+        points: &[[S; 3]],
+        of: Option<BodyId>,
+        cut_off: f64,
+    ) -> Result<Vec<Option<ClosestPoint>>, Error> {
+        let verbs = &mut self.world.verbs;
+        verbs.closest_points(points, of, cut_off, Some(self.question))
+    }
+
+    /// [`World::signed_closest_points`](crate::World::signed_closest_points).
+    ///
+    /// # Errors
+    ///
+    /// See [`Interruptible`].
+    pub fn signed_closest_points(
+        self,
+        points: &[[S; 3]],
+        body: BodyId,
+        cut_off: f64,
+    ) -> Result<Vec<Option<ClosestPoint>>, Error> {
+        let question = Some(self.question);
+        self.world
+            .find_signed_closest_points(points, body, cut_off, question)
+    }
+
+    /// [`World::depth`](crate::World::depth).
+    ///
+    /// # Errors
+    ///
+    /// See [`Interruptible`].
+    pub fn depth(self, a: BodyId, b: BodyId) -> Result<Depth, Error> {
+        self.world.find_depth(a, b, Some(self.question))
     }
 
     /// [`World::weld`](crate::World::weld), until it is known which vertices are welded. If it is

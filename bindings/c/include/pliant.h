@@ -43,6 +43,7 @@ enum {
     PLIANT_DIFFERENT_COUNTS = 10,    /* arrays of one call have different counts */
     PLIANT_BAD_CORNER = 11,          /* a coordinate: as PLIANT_BAD_POSITION, _NEEDS_SUBNORMALS */
     PLIANT_BAD_WIDTH = 12,           /* a width is negative, infinite or NaN */
+    PLIANT_BAD_POINT = 13,           /* a coordinate of a point: as PLIANT_BAD_CORNER */
     PLIANT_NO_SUCH_BODY = 20,        /* the world has no such body, or has it no more */
     PLIANT_SAME_BODY = 21,           /* one body is given as two */
     PLIANT_NO_TRIANGLES = 22,        /* a body would have no triangle */
@@ -52,6 +53,7 @@ enum {
     PLIANT_WRONG_LENGTH = 26,        /* not one for each vertex */
     PLIANT_BAD_POSITION = 27,        /* a coordinate is NaN, infinite or beyond 3.4e38 */
     PLIANT_NEEDS_SUBNORMALS = 28,    /* the thread flushes subnormal numbers, and there are some */
+    PLIANT_NOT_CLOSED = 29,          /* a body has no inside: not closed at count edges */
     PLIANT_TOO_MANY_HITS = 30,       /* more than pliant_query.at_most */
     PLIANT_INTERRUPTED = 31,         /* pliant_query.interrupt said so */
     PLIANT_BAD_MARGIN = 32,          /* a radius is negative, infinite or NaN */
@@ -79,8 +81,8 @@ typedef struct pliant_error {
     pliant_status status;
     uint32_t body, triangle;
     uint32_t vertex;      /* of the body; of a pair the corner, from 0 */
-    uint64_t pair;        /* the pair of elements, from 0 */
-    uint64_t count;       /* how many were given; the number of an edge, or its row */
+    uint64_t pair;        /* the pair of elements, or the point, from 0 */
+    uint64_t count;       /* how many were given; the number of an edge, or its row; open edges */
     uint64_t limit;       /* how many were expected, or may be */
     double number;        /* the width, radius, distance, thickness or time that is refused */
     double position[3];   /* the position that is refused */
@@ -625,6 +627,119 @@ enum {
 };
 pliant_status pliant_world_curves(pliant_world *world, const uint32_t *pairs, size_t count,
                                   uint8_t areas, pliant_curves *curves, pliant_error *error);
+
+/* ---- Inside and outside, closest points, depth -----------------------------------------------
+
+   Of bodies in their present shapes; but for pliant_world_contained, filters do not count. Of
+   `query` they read `interrupt` and `user`, pliant_world_contained also `of`; all else must be 0.
+   Views are valid until the same function is called again with the world, or it is freed. All may
+   return PLIANT_NO_SUCH_BODY, all with a query PLIANT_BAD_OPTION and PLIANT_INTERRUPTED.
+
+   Those with `points` may return PLIANT_BAD_SCALAR, PLIANT_WOULD_ROUND and PLIANT_BAD_POINT, which
+   says which point in `pair`. Those that ask for an inside return PLIANT_NOT_CLOSED for a body that
+   has none. */
+
+/* Edges at which a body is not a closed surface, 2 vertices a row, the lower one first; sorted. It
+   is closed, and has an inside, if no edge is open or turned. An edge is two vertices, wherever
+   they are: seams are open until they are welded. */
+typedef struct pliant_watertight {
+    pliant_list open;    /* in an odd number of triangles: borders of holes */
+    pliant_list turned;  /* in an even number that are turned against each other */
+    pliant_list doubled; /* in more than two triangles, which is as closed */
+} pliant_watertight;
+pliant_status pliant_world_watertight(const pliant_world *world, uint32_t body,
+                                      pliant_watertight *edges, pliant_error *error);
+
+/* Where inside is, by how often a surface winds round a point: 1 inside a body whose triangles are
+   turned outward, 2 where it overlaps itself, -1 where it is turned inside out. */
+typedef uint8_t pliant_inside_rule;
+enum {
+    PLIANT_NON_ZERO = 0, /* the winding number is not 0 */
+    PLIANT_POSITIVE = 1, /* it is above 0 */
+    PLIANT_PARITY = 2    /* a ray crosses the surface an odd number of times; edges may be turned */
+};
+
+/* Side of a closed surface. */
+typedef uint8_t pliant_side;
+enum {
+    PLIANT_IS_OUTSIDE = 0,
+    PLIANT_IS_ON = 1,    /* in one of its triangles */
+    PLIANT_IS_INSIDE = 2
+};
+
+/* On which side points are. */
+typedef struct pliant_located {
+    size_t count;
+    const pliant_side *sides;
+    const int32_t *windings; /* 0 on the surface; by PLIANT_PARITY 1 inside, else 0 */
+} pliant_located;
+
+/* On which side of a closed body points are, decided exactly, however near. Right for bodies that
+   cross themselves. */
+pliant_status pliant_world_points_inside(pliant_world *world, pliant_points points, uint32_t body,
+                                         pliant_inside_rule rule, const pliant_query *query,
+                                         pliant_located *located, pliant_error *error);
+
+/* On which side of body `b`, a closed one, the vertices of body `a` are: one for each number. Empty
+   numbers are outside. PLIANT_SAME_BODY. */
+pliant_status pliant_world_inside(pliant_world *world, uint32_t a, uint32_t b,
+                                  pliant_inside_rule rule, const pliant_query *query,
+                                  pliant_located *located, pliant_error *error);
+
+/* Components that lie inside other bodies, by PLIANT_NON_ZERO. None of its triangles crosses or
+   overlaps the body's, no vertex is outside, and one is inside. Of a selection of all these are
+   the bodies that may meet; of two either in the other. PLIANT_SAME_BODY. */
+typedef struct pliant_containment {
+    pliant_list all;  /* 3: body, component as of pliant_world_components, body round it; sorted */
+    pliant_list open; /* bodies that are not closed, of whose inside nothing is said; ascending */
+} pliant_containment;
+pliant_status pliant_world_contained(pliant_world *world, const pliant_query *query,
+                                     pliant_containment *contained, pliant_error *error);
+
+/* All bodies, instead of one. */
+#define PLIANT_ALL_BODIES UINT32_MAX
+
+/* The closest point of a body for each of some points, in columns. Where none is within the cut-off
+   `found` is 0, and all else UINT32_MAX, 255, infinity for distances, or NaN. */
+typedef struct pliant_closest {
+    size_t count;
+    const uint8_t *found;
+    const uint32_t *bodies;
+    const uint32_t *triangles; /* exactly the nearest; of several the first */
+    const double *distances;   /* as good as those of close triangles; 0 exactly on the surface */
+    const double *points;      /* 3: the closest point, rounded */
+    const uint8_t *features;   /* of the triangle, PLIANT_ON_CORNER to PLIANT_INSIDE, exactly */
+    const double *weights;     /* 3: of the triangle's corners in the closest point */
+    const double *directions;  /* 3: unit vector from the closest point; 0 at distance 0 */
+} pliant_closest;
+
+/* The closest points of a body, closed or not, or with PLIANT_ALL_BODIES of all. None further than
+   `cut_off`, which is decided exactly, and may be infinite. PLIANT_BAD_DISTANCE. */
+pliant_status pliant_world_closest_points(pliant_world *world, pliant_points points, uint32_t body,
+                                          double cut_off, const pliant_query *query,
+                                          pliant_closest *closest, pliant_error *error);
+
+/* The same of a closed body, with distances below 0 inside it, by PLIANT_NON_ZERO. The signs are
+   exact. */
+pliant_status pliant_world_signed_closest_points(pliant_world *world, pliant_points points,
+                                                 uint32_t body, double cut_off,
+                                                 const pliant_query *query,
+                                                 pliant_closest *closest, pliant_error *error);
+
+/* How deep a body reaches into a closed one. */
+typedef struct pliant_depth {
+    size_t count;
+    const double *of_vertices; /* distance of each vertex from the surface if inside, else 0 */
+    uint32_t vertex;           /* the deepest, the first of several; UINT32_MAX if none is inside */
+    double at_least;           /* its depth, else 0 */
+    double at_most;            /* no point of the surface is deeper; 0 if no triangle meets the
+                                  other body or has a corner inside */
+} pliant_depth;
+
+/* How deep body `a`, closed or not, reaches into body `b`, by PLIANT_NON_ZERO. PLIANT_SAME_BODY. */
+pliant_status pliant_world_depth(pliant_world *world, uint32_t a, uint32_t b,
+                                 const pliant_query *query, pliant_depth *depth,
+                                 pliant_error *error);
 
 /* ---- Meshes that change ----------------------------------------------------------------------
 

@@ -537,6 +537,53 @@ public:
         return told<pliant_curves>(pliant_world_curves, pairs, count, std::uint8_t(areas));
     }
 
+    /* Inside and outside, closest points, depth. Points are an array, as positions are. */
+    pliant_watertight watertight(std::uint32_t body) const & {
+        return told<pliant_watertight>(pliant_world_watertight, body);
+    }
+    template <class P>
+    pliant_located points_inside(const P &at, std::uint32_t body,
+                                 pliant_inside_rule rule = PLIANT_NON_ZERO,
+                                 const Query &query = {}) & {
+        return told_unless<pliant_located>(query, [&](auto *plain, auto *located, auto *error) {
+            return pliant_world_points_inside(get(), pliant::points(at), body, rule, plain, located,
+                                              error);
+        });
+    }
+    pliant_located inside(std::uint32_t a, std::uint32_t b,
+                          pliant_inside_rule rule = PLIANT_NON_ZERO, const Query &query = {}) & {
+        return told_unless<pliant_located>(query, [&](auto *plain, auto *located, auto *error) {
+            return pliant_world_inside(get(), a, b, rule, plain, located, error);
+        });
+    }
+    pliant_containment contained(const Query &query = {}) & {
+        return told_unless<pliant_containment>(query, [&](auto *plain, auto *all, auto *error) {
+            return pliant_world_contained(get(), plain, all, error);
+        });
+    }
+    /* Of a body, or of PLIANT_ALL_BODIES. */
+    template <class P>
+    pliant_closest closest_points(const P &at, std::uint32_t body, double cut_off,
+                                  const Query &query = {}) & {
+        return told_unless<pliant_closest>(query, [&](auto *plain, auto *closest, auto *error) {
+            return pliant_world_closest_points(get(), pliant::points(at), body, cut_off, plain,
+                                               closest, error);
+        });
+    }
+    template <class P>
+    pliant_closest signed_closest_points(const P &at, std::uint32_t body, double cut_off,
+                                         const Query &query = {}) & {
+        return told_unless<pliant_closest>(query, [&](auto *plain, auto *closest, auto *error) {
+            return pliant_world_signed_closest_points(get(), pliant::points(at), body, cut_off,
+                                                      plain, closest, error);
+        });
+    }
+    pliant_depth depth(std::uint32_t a, std::uint32_t b, const Query &query = {}) & {
+        return told_unless<pliant_depth>(query, [&](auto *plain, auto *out, auto *error) {
+            return pliant_world_depth(get(), a, b, plain, out, error);
+        });
+    }
+
     /* What it has. Numbers come in rows: three vertices a triangle, two an edge. */
     std::vector<std::uint32_t> bodies() const { return list<1>(pliant_world_bodies); }
     std::vector<std::uint32_t> triangles(std::uint32_t body) const {

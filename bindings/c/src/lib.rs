@@ -19,16 +19,20 @@
 //! | `hits` | hits in columns |
 //! | `answers` | questions with one answer |
 //! | `curves` | where pairs meet; each contact once |
+//! | `inside` | inside, outside or on closed bodies; what lies inside which |
+//! | `closest` | closest points; how deep bodies reach into others |
 //! | `changes` | what began and ended since the last list |
 
 mod answers;
 mod arrays;
 mod bodies;
 mod changes;
+mod closest;
 mod curves;
 mod edits;
 mod faces;
 mod hits;
+mod inside;
 mod looking;
 mod objects;
 mod options;
@@ -42,10 +46,12 @@ pub use answers::*;
 pub use arrays::PliantList;
 pub use bodies::*;
 pub use changes::*;
+pub use closest::*;
 pub use curves::*;
 pub use edits::*;
 pub use faces::PliantFaces;
 pub use hits::{PliantHits, PliantRows};
+pub use inside::*;
 pub use looking::*;
 pub use options::*;
 pub use pairs::*;

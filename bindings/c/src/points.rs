@@ -103,19 +103,32 @@ pub(crate) fn exactly<S: Number>(corner: [f64; 3]) -> Result<[S; 3], Refused> {
     Err(refused)
 }
 
-/// Positions of a body's vertices as a world of this precision takes them: where they lie, if they
-/// lie so, else copied. Single precision is widened; double would be rounded, and is refused.
+/// Positions of a body's vertices, as [`points`].
+///
+/// # Safety
+///
+/// `all` may be read as it says.
+pub(crate) unsafe fn positions<S: Number>(
+    all: &PliantPoints,
+) -> Result<Cow<'_, [[S; 3]]>, Refused> {
+    // SAFETY: as above.
+    unsafe { points(all, "positions") }
+}
+
+/// Points as a world of this precision takes them, by the name of the argument: where they lie, if
+/// they lie so, else copied. Single precision is widened; double would be rounded, and is refused.
 ///
 /// # Safety
 ///
 /// `points` may be read as it says.
-pub(crate) unsafe fn positions<S: Number>(
-    points: &PliantPoints,
-) -> Result<Cow<'_, [[S; 3]]>, Refused> {
+pub(crate) unsafe fn points<'p, S: Number>(
+    points: &'p PliantPoints,
+    name: &str,
+) -> Result<Cow<'p, [[S; 3]]>, Refused> {
     if points.data.is_null() && points.count > 0 {
-        return Err(Refused::null("positions.data"));
+        return Err(Refused::null(&format!("{name}.data")));
     }
-    countable(points.count, "positions.count")?;
+    countable(points.count, &format!("{name}.count"))?;
     match points.scalar {
         F32 | F64 if points.scalar == S::SCALAR => {
             let (rows, size) = (points.data.cast::<[S; 3]>(), size_of::<S>());
@@ -137,11 +150,13 @@ pub(crate) unsafe fn positions<S: Number>(
         }
         F64 => Err(Refused::new(
             WOULD_ROUND,
-            "positions of double precision would be rounded; make the world of PLIANT_F64",
+            format_args!(
+                "{name} of double precision would be rounded; make the world of PLIANT_F64"
+            ),
         )),
         other => Err(Refused::new(
             BAD_SCALAR,
-            format_args!("positions.scalar is {other}; give PLIANT_F32 or PLIANT_F64"),
+            format_args!("{name}.scalar is {other}; give PLIANT_F32 or PLIANT_F64"),
         )),
     }
 }

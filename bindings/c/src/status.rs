@@ -30,6 +30,7 @@ statuses! {
     DIFFERENT_COUNTS = 10;
     BAD_CORNER = 11;
     BAD_WIDTH = 12;
+    BAD_POINT = 13;
     NO_SUCH_BODY = 20;
     SAME_BODY = 21;
     NO_TRIANGLES = 22;
@@ -39,6 +40,7 @@ statuses! {
     WRONG_LENGTH = 26;
     BAD_POSITION = 27;
     NEEDS_SUBNORMALS = 28;
+    NOT_CLOSED = 29;
     TOO_MANY_HITS = 30;
     INTERRUPTED = 31;
     BAD_MARGIN = 32;
@@ -76,7 +78,7 @@ pub struct PliantError {
     pub triangle: u32,
     /// Vertex of it, or the corner of a pair.
     pub vertex: u32,
-    /// Number of the pair; this and the next are `u64::MAX` where they do not apply.
+    /// Number of the pair or point; this and the next are `u64::MAX` where they do not apply.
     pub pair: u64,
     /// Count that is refused.
     pub count: u64,
@@ -148,6 +150,9 @@ impl From<Error> for Refused {
             } => with(BAD_CORNER, &|it| {
                 (it.pair, it.vertex, it.position) = (pair as u64, corner as u32, position);
             }),
+            ErrorKind::BadPoint { point, position } => with(BAD_POINT, &|it| {
+                (it.pair, it.position) = (point as u64, position);
+            }),
             ErrorKind::BadWidth { width } => with(BAD_WIDTH, &|it| it.number = width),
             ErrorKind::NoSuchBody => plain(NO_SUCH_BODY),
             ErrorKind::SameBody => plain(SAME_BODY),
@@ -175,6 +180,7 @@ impl From<Error> for Refused {
             ErrorKind::NeedsSubnormals { vertex } => {
                 with(NEEDS_SUBNORMALS, &|it| it.vertex = vertex as u32)
             }
+            ErrorKind::NotClosed { count, .. } => with(NOT_CLOSED, &|it| it.count = count as u64),
             ErrorKind::TooManyHits { limit } => with(TOO_MANY_HITS, &|it| it.limit = limit as u64),
             ErrorKind::Interrupted => plain(INTERRUPTED),
             ErrorKind::BadMargin { radius } => with(BAD_MARGIN, &|it| it.number = radius),

@@ -331,10 +331,11 @@ fn run(compiler: &str, flags: &[&str], file: &Path, by: &[&str]) -> String {
     String::from_utf8(ran.stdout).unwrap()
 }
 
-const PROGRAMS: [&str; 4] = [
+const PROGRAMS: [&str; 5] = [
     "tests/pairs.c",
     "tests/world.c",
     "tests/answers.c",
+    "tests/inside.c",
     "tests/edits.c",
 ];
 

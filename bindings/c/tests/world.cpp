@@ -218,6 +218,36 @@ int main() {
     CHECK(world.segments(met.pairs, met.count).offsets[1] == 2);
     CHECK(world.curves(met.pairs, met.count).count == 1);
 
+    /* Inside and outside, closest points and depth, in a world of their own. */
+    {
+        const std::vector<std::array<int, 3>> faces{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+        const std::vector<std::array<double, 3>> out{{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {0, 0, 8}};
+        const std::vector<std::array<float, 3>> in{{1, 1, 1}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2}};
+        pliant::World closed;
+        const auto large = closed.add(faces, out), small = closed.add(faces, in);
+        const auto open = closed.add(triangle, floor_at);
+        CHECK(closed.watertight(open).open.count == 3 && closed.watertight(large).open.count == 0);
+        CHECK(closed.points_inside(in, large).sides[3] == PLIANT_IS_INSIDE);
+        const auto located = closed.points_inside(Matrix<double>(out), large, PLIANT_PARITY);
+        CHECK(located.count == 4 && located.sides[1] == PLIANT_IS_ON && located.windings[1] == 0);
+        CHECK(closed.inside(small, large).windings[0] == 1);
+        CHECK(closed.inside(large, small, PLIANT_POSITIVE).sides[0] == PLIANT_IS_OUTSIDE);
+        const auto contained = closed.contained(pliant::between(large, small));
+        CHECK(contained.all.count == 1 && contained.all.numbers[2] == large);
+        CHECK(closed.contained().open.numbers[0] == open);
+        const auto nearest = closed.closest_points(in, PLIANT_ALL_BODIES, 9.0);
+        CHECK(nearest.count == 4 && nearest.bodies[0] == small && nearest.distances[0] == 0.0);
+        const auto with_signs = closed.signed_closest_points(in, large, 9.0);
+        CHECK(with_signs.distances[0] == -1.0 && with_signs.features[0] == PLIANT_INSIDE);
+        CHECK(closed.depth(small, large).at_least == 1.0);
+        CHECK(holds(refused([&] { closed.inside(large, open); }), "0-1, 0-2, 1-2"));
+        CHECK(holds(refused([&] { closed.depth(large, large); }), "twice"));
+        query = {};
+        query.interrupt = [] { return true; };
+        CHECK(holds(refused([&] { closed.contained(query); }), "interrupted"));
+        CHECK(holds(refused([&] { closed.depth(small, large, query); }), "interrupted"));
+    }
+
     /* A mesh that changes, and lists that are followed. */
     pliant::Changes changes;
     CHECK(changes.update(met).began_count == 1);

@@ -125,6 +125,12 @@ impl<'py> CopiedFaces<'py> {
     }
 }
 
+/// Copies points (k, 3) of float32 or float64.
+pub(crate) fn points<'py>(given: &Any<'py>) -> Result<CopiedCoordinates<'py>> {
+    let array = as_array(given, "points", "k")?;
+    CopiedCoordinates::anew(Coordinates::of_array(&array, "points")?)
+}
+
 /// Copied mesh.
 pub(crate) struct CopiedMesh<'py> {
     faces: CopiedFaces<'py>,
@@ -367,12 +373,12 @@ fn as_array<'py>(given: &Any<'py>, what: &str, rows: &str) -> Result<Bound<'py, 
     }
     let shape = array.getattr("shape")?;
     let hint = if rows == "m" {
-        about_faces(&array)?
+        about_faces(&array)?.to_owned()
     } else {
         match array.shape() {
-            [_, 2] => ": two coordinates; pliant needs three",
-            [count] if count % 3 == 0 => ": flat; give positions.reshape(-1, 3)",
-            _ => about_rows(&array),
+            [_, 2] => ": two coordinates; pliant needs three".to_owned(),
+            [count] if count % 3 == 0 => format!(": flat; give {what}.reshape(-1, 3)"),
+            _ => about_rows(&array).to_owned(),
         }
     };
     Err(refused!(BadArray: "{what} have shape {shape}; it must be ({rows}, 3){hint}"))

@@ -11,7 +11,7 @@ use crate::usd::{self, Raised};
 use numpy::{IntoPyArray, PyArray1};
 use pliant_check::{
     Baseline, BodyFacts, BodyThere, Check as Running, Error, FirstImpact, Found, Frames, Group,
-    Interval, Kinds, LabelFile, Life, Place, Rest, Settings, Split,
+    Interval, Kinds, LabelFile, Life, Nested, Place, Rest, Settings, Split,
 };
 use pliant_io::{OpenOptions, shown};
 use pyo3::exceptions::PyUserWarning;
@@ -167,6 +167,8 @@ impl Name {
 ///   leaves any out. Not with within or first
 /// - places: joins the pairs of a frame into places with numbers that last: Frame.places,
 ///   Check.places. Not with first
+/// - solid: takes closed bodies for solids: Place.depth. What lies inside a body, which no pair tells,
+///   is said in any case: Frame.inside, Frame.not_closed
 ///
 /// How files are read:
 ///
@@ -189,13 +191,14 @@ impl Name {
         *paths, itself=false, within=None, rest=None, labels=None, crossing=false,
         ignore_adjacent=false, swept=false, first=false, weld=true, weld_tolerance=0.0,
         split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false,
-        crossing_edges=false, places=false, frames=None, clip=None, fps=30.0,
+        crossing_edges=false, places=false, solid=false, frames=None, clip=None, fps=30.0,
         threads=Threads::Count(1)
     ),
     text_signature = "(*paths, itself=False, within=None, rest=None, labels=None, crossing=False, \
         ignore_adjacent=False, swept=False, first=False, weld=True, weld_tolerance=0.0, \
         split=None, groups=None, ignore=None, baseline=None, skip_degenerate=False, \
-        crossing_edges=False, places=False, frames=None, clip=None, fps=30.0, threads=1)"
+        crossing_edges=False, places=False, solid=False, frames=None, clip=None, fps=30.0, \
+        threads=1)"
 )]
 #[expect(
     clippy::too_many_arguments,
@@ -222,6 +225,7 @@ pub(crate) fn check(
     skip_degenerate: bool,
     crossing_edges: bool,
     places: bool,
+    solid: bool,
     frames: Option<&Bound<'_, PyRange>>,
     clip: Option<String>,
     fps: f64,
@@ -253,6 +257,8 @@ pub(crate) fn check(
         skip_degenerate,
         crossing_edges,
         places,
+        inside: true,
+        solid,
         frames: frames.map(range_of_frames).transpose()?,
         options: with_threads(threads)?,
         ..Settings::default()
@@ -372,6 +378,14 @@ impl Check {
             );
             tuple(py, counts)
         });
+        let (inside, not_closed) = match found.inside {
+            Some(inside) => {
+                let row = |it: &Nested| (it.body, it.component, it.inside);
+                let rows: Vec<_> = inside.all.iter().map(row).collect();
+                (rows, inside.open)
+            }
+            None => Default::default(),
+        };
         let places = found.places;
         let places = places.map(|places| tuple(py, places.iter().map(|it| place(py, it))));
         let interval = interval.map(|interval| way(py, interval));
@@ -382,6 +396,7 @@ impl Check {
             changed = changed, pairs = Rows(found.pairs), adjacent = adjacent.transpose()?,
             crossing_edges = crossing_edges.transpose()?,
             places = places.transpose()?,
+            inside = PyTuple::new(py, inside)?, not_closed = PyTuple::new(py, not_closed)?,
             interval = interval.transpose()?)?))
     }
 
@@ -541,7 +556,7 @@ fn place<'py>(py: Python<'py>, place: &Place) -> PyResult<Any<'py>> {
         first_pair = <(u32, u32, u32, u32)>::from(place.first_pair),
         bodies = tuple(py, place.bodies.iter().map(there))?,
         lower = <(f64, f64, f64)>::from(place.lower),
-        upper = <(f64, f64, f64)>::from(place.upper))
+        upper = <(f64, f64, f64)>::from(place.upper), depth = place.depth)
 }
 
 /// A place, from its first frame to its last.

@@ -35,6 +35,7 @@ pub(crate) enum Fact {
     Length(f64),
     Position((f64, f64, f64)),
     Ends((u32, u32)),
+    Edges(Vec<(u32, u32)>),
     Text(String),
 }
 
@@ -57,6 +58,7 @@ facts! {
     f64, length => Self::Length(length);
     [f64; 3], position => Self::Position(position.into());
     [u32; 2], ends => Self::Ends(ends.into());
+    Vec<[u32; 2]>, edges => Self::Edges(edges.into_iter().map(<(u32, u32)>::from).collect());
     String, text => Self::Text(text);
     &str, text => Self::Text(text.to_owned());
 }
@@ -150,6 +152,10 @@ impl From<pliant::Error> for Refused {
         if let Some(body) = error.body {
             refused = refused.with("body", body);
         }
+        if let ErrorKind::NotClosed { edges, count } = error.kind {
+            // Of another kind edges are a number.
+            return refused.with("some_edges", edges).with("count", count);
+        }
         with_facts! { refused, error.kind;
             TooLarge { what, count, limit }
             VertexOutOfRange { triangle, vertex, vertices }
@@ -170,6 +176,7 @@ impl From<pliant::Error> for Refused {
             EmptyVertex { vertex }
             VertexInUse { vertex }
             NotACorner { triangle, vertex }
+            BadPoint { point, position }
         }
     }
 }

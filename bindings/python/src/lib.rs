@@ -15,6 +15,7 @@
 //! | `edit.rs` | `Edit`: changes of a mesh, made all at once |
 //! | `changes.rs` | `Changes`: hits that began, persist, ended |
 //! | `pickled.rs` | the state that pickle writes |
+//! | `inside.rs` | points of callers and closed bodies: rules, and answers |
 //! | `queries/mod.rs` | the part that all kinds of queries share |
 //! | `queries/pairs.rs` | `Query`: intersections, crossing edges, and candidates |
 //! | `queries/close.rs` | `CloseQuery`: close pairs, with distance, direction and closest points |
@@ -42,6 +43,7 @@ mod curves;
 mod edit;
 mod error;
 mod feature_pairs;
+mod inside;
 mod one_liners;
 mod options;
 mod pairs;

@@ -102,7 +102,8 @@ fn at_least_one(name: &str, given: i64) -> Result<NonZeroU32> {
     )
 }
 
-fn named<T: Copy>(option: &str, given: &str, names: &Names<T>) -> Result<T> {
+/// The value of a name; refuses others, and lists the names.
+pub(crate) fn named<T: Copy>(option: &str, given: &str, names: &Names<T>) -> Result<T> {
     let found = names.iter().find(|(name, _)| *name == given);
     found.map(|&(_, value)| value).ok_or_else(|| {
         let names: Vec<_> = names.iter().map(|(name, _)| format!("{name:?}")).collect();

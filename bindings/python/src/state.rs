@@ -2,7 +2,7 @@
 
 use crate::arrays::{Coordinates, CopiedCoordinates};
 use crate::copies::Room;
-use crate::error::{Refused, Result, alone, alone_with};
+use crate::error::{Refused, Result, alone, alone_with, refused};
 use pliant::{BodyId, Error, ErrorKind, Options};
 use pliant_check::{AnyWorld, NotTaken, double, single, with_world};
 use pliant_io::{Positions, Precision};
@@ -312,12 +312,15 @@ impl From<NotTaken> for Refused {
     fn from(not_taken: NotTaken) -> Self {
         match not_taken {
             NotTaken::Refused(error) => error.into(),
-            NotTaken::WouldBeRounded => Self::new(
-                "Precision",
-                "positions are float64 in a world of float32, which its first body made it; \
-                 rounding them may change answers: if that is meant, give \
-                 positions.astype(numpy.float32), else begin the world with a body of float64",
-            ),
+            NotTaken::WouldBeRounded => would_be_rounded("positions"),
         }
     }
+}
+
+/// Refusal of an array of doubles in a world of float32.
+pub(crate) fn would_be_rounded(what: &str) -> Refused {
+    refused!(Precision:
+        "{what} are float64 in a world of float32, which its first body made it; \
+         rounding them may change answers: if that is meant, give \
+         {what}.astype(numpy.float32), else begin the world with a body of float64")
 }

@@ -4,6 +4,7 @@ use crate::answers::{Any, Column, Owned, Rows, counted, named};
 use crate::arrays::{self, BoxCorners, Coordinates, CopiedCoordinates, CopiedMesh, Number};
 use crate::edit::{self, AnyEdit, Edit};
 use crate::error::{Refused, Result};
+use crate::inside::{self, OfWorld};
 use crate::options::{Keywords, Threads};
 use crate::pickled::{self, Written};
 use crate::queries::Hit;
@@ -34,7 +35,7 @@ use std::borrow::Cow;
 ///
 /// The first body fixes the precision, float32 or float64: see dtype. Lengths are in the unit of
 /// the positions. Bodies, triangles, vertices and edges are numbers, counted from 0. Surfaces only:
-/// a body wholly inside another meets none of its triangles.
+/// a body wholly inside another meets none of its triangles, and contained finds it.
 ///
 /// A refused call raises pliant.Error and leaves the world as it was. Names behind "Raises
 /// pliant.Error:" are values of its attribute kind. Every call may also raise the kind Busy, for a
@@ -47,6 +48,8 @@ use std::borrow::Cow;
 ///   vertex_triangle_candidates, edge_edge_candidates
 /// - distances: close_vertex_triangle_pairs, close_edge_edge_pairs, close_triangle_pairs, distance,
 ///   nearest_body, clearance
+/// - closed bodies: watertight, points_inside, inside, contained, depth
+/// - points: points_inside, closest_points, signed_closest_points
 /// - motion: set_motion, end_positions, vertex_triangle_impacts, edge_edge_impacts, first_impact,
 ///   free_step, collision_free_step, advance_motion, finish_motion
 /// - change of a mesh: set_mesh, edit, apply, live_triangles, live_vertices, mesh_revision,
@@ -107,6 +110,19 @@ macro_rules! search {
             }))
         })
     };
+}
+
+/// Searches as `search!` does, with points in the type of the world.
+macro_rules! search_at {
+    ($this:ident, $py:ident, $given:ident, ($world:ident, $points:ident) => $work:expr) => {{
+        let copied = arrays::points($given)?;
+        let given = copied.get()?;
+        search!($this, $py, $world => {
+            let mut widened = Vec::new();
+            let $points = OfWorld::take(given, &mut widened)?;
+            Ok::<_, Refused>($work?)
+        })
+    }};
 }
 
 /// An object of Python, or the refusal.
@@ -1190,6 +1206,161 @@ impl World {
             of_bodies.set_item(body.0, Column(clearance))?;
         }
         Ok(of_bodies)
+    }
+
+    /// Edges at which a body is not a closed surface, a Watertight: open, turned, doubled.
+    ///
+    /// A closed body has an inside. Closed is said of the mesh, not of its shape: a body stays
+    /// closed however it moves. Seams are open until they are welded: see weld.
+    ///
+    /// Raises pliant.Error: NoSuchBody. Cost: O(m log m) the first time after the mesh has changed.
+    fn watertight<'py>(&self, py: Python<'py>, body: Body) -> Answer<'py> {
+        let found = ask!(self, py, world => world.watertight(body.0)?)?;
+        Ok(inside::watertight(py, found)?)
+    }
+
+    /// Whether points are inside a closed body, outside, or on its surface: a Located.
+    ///
+    /// points are (k, 3) float32 or float64; float32 is widened in a float64 world. Decided
+    /// exactly, for the points and the shape as given: no point is undecided, however near to the
+    /// surface. Right for bodies that cross themselves. Filters and motions are not looked at.
+    ///
+    /// A surface winds round a point some whole number of times. That is 1 inside a body whose
+    /// triangles are turned outward. It is 2 where the body overlaps itself, and -1 where it is
+    /// turned inside out. rule says which numbers are inside:
+    ///
+    /// - "nonzero": all but 0
+    /// - "positive": those above 0
+    /// - "parity": where a ray crosses the surface an odd number of times, whichever way triangles
+    ///   are turned; not what the body covers twice
+    ///
+    ///     found = world.points_inside(points, body)
+    ///     inside = points[found.is_inside]            # found.sides: 1 inside, 0 on, -1 outside
+    ///
+    /// Raises pliant.Error: NoSuchBody, BadArray, Precision for float64 in a float32 world.
+    /// NotClosed for a body that has no inside, as watertight says: is_closed, or for "parity"
+    /// is_even. BadPoint for a coordinate that is NaN, infinite or above 3.4e38 in magnitude.
+    /// BadOption for another rule.
+    ///
+    /// Cost: refitting the body, in whole if points are many. For each point the nodes and
+    /// triangles on the way straight to the nearest side of the body's box.
+    #[pyo3(signature = (points, body, rule="nonzero"))]
+    fn points_inside<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Any<'py>,
+        body: Body,
+        rule: &str,
+    ) -> Answer<'py> {
+        let rule = inside::rule(rule)?;
+        let found = search_at!(self, py, points, (world, points) => {
+            world.points_inside(points, body.0, rule)
+        })?;
+        Ok(inside::located(py, &found)?)
+    }
+
+    /// Whether each vertex of body a is inside body b, a closed one: a Located of (n,) arrays.
+    ///
+    /// As points_inside says it of their positions, with the same rules. Empty vertex numbers are
+    /// outside.
+    ///
+    /// Raises pliant.Error: NoSuchBody, SameBody if a is b, NotClosed if b has no inside, BadOption
+    /// for another rule.
+    #[pyo3(signature = (a, b, rule="nonzero"))]
+    fn inside<'py>(&self, py: Python<'py>, a: Body, b: Body, rule: &str) -> Answer<'py> {
+        let rule = inside::rule(rule)?;
+        let found = search!(self, py, world => world.inside(a.0, b.0, rule))?;
+        Ok(inside::located(py, &found)?)
+    }
+
+    /// Components of bodies that lie inside other bodies: a Containment.
+    ///
+    /// These meet no triangle, so that intersections does not find them. A component, as components
+    /// numbers them, lies inside a closed body if three things hold:
+    ///
+    /// - none of its triangles crosses or overlaps one of the body's
+    /// - every vertex of it is inside the body or on it
+    /// - one vertex is inside
+    ///
+    /// Inside is said by the rule "nonzero": see points_inside. Selection.WORLD and EVERYTHING heed
+    /// filters; between(a, b) looks for either in the other. A body is never inside itself. Bodies
+    /// that are not closed are listed, as nothing is said of their inside.
+    ///
+    /// Raises pliant.Error: NoSuchBody, SameBody.
+    ///
+    /// Cost: for bodies whose boxes overlap a ray for each component. Where it begins inside, a
+    /// query for the contacts of both.
+    #[pyo3(signature = (of=Selection::WORLD))]
+    fn contained<'py>(&self, py: Python<'py>, of: Selection) -> Answer<'py> {
+        let found = search!(self, py, world => world.contained(of.0))?;
+        Ok(inside::containment(py, &found)?)
+    }
+
+    /// Closest point of a body, or of all bodies, for each of some points: a ClosestPoints.
+    ///
+    /// points are (k, 3) float32 or float64; float32 is widened in a float64 world. body=None asks
+    /// of all bodies. Points further than cut_off from it, which may be infinite, have found False;
+    /// this is decided exactly. Distances are at least 0, and bodies need not be closed. Filters
+    /// and motions are not looked at.
+    ///
+    /// Raises pliant.Error: NoSuchBody, BadArray, Precision for float64 in a float32 world.
+    /// BadPoint for a coordinate that is NaN, infinite or above 3.4e38 in magnitude. BadDistance if
+    /// cut_off is negative or NaN.
+    ///
+    /// Cost: refitting the body, in whole if points are many. For each point the nodes and
+    /// triangles that are about as near as the nearest one.
+    #[pyo3(signature = (points, body=None, cut_off=f64::INFINITY))]
+    fn closest_points<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Any<'py>,
+        body: Option<Body>,
+        cut_off: f64,
+    ) -> Answer<'py> {
+        let of = body.map(|body| body.0);
+        let found = search_at!(self, py, points, (world, points) => {
+            world.closest_points(points, of, cut_off)
+        });
+        let found = found.map_err(|refused| refused.distance_is("cut_off"))?;
+        Ok(inside::closest(py, &found)?)
+    }
+
+    /// Closest point of a closed body for each of some points, with signed distances.
+    ///
+    /// Returns a ClosestPoints, as closest_points does, but distances are negative for points
+    /// inside. The sign is that of points_inside with the rule "nonzero", which is exact. No
+    /// normals are asked.
+    ///
+    /// Raises pliant.Error: NotClosed if the body has no inside, and the kinds of closest_points:
+    /// NoSuchBody, BadArray, Precision, BadPoint, BadDistance.
+    #[pyo3(signature = (points, body, cut_off=f64::INFINITY))]
+    fn signed_closest_points<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Any<'py>,
+        body: Body,
+        cut_off: f64,
+    ) -> Answer<'py> {
+        let found = search_at!(self, py, points, (world, points) => {
+            world.signed_closest_points(points, body.0, cut_off)
+        });
+        let found = found.map_err(|refused| refused.distance_is("cut_off"))?;
+        Ok(inside::closest(py, &found)?)
+    }
+
+    /// How deep body a reaches into body b, a closed one, in their present shapes: a Depth.
+    ///
+    /// It has the depth of every vertex of a, and a bracket for the deepest point of its surface.
+    /// Inside is said by the rule "nonzero": see points_inside. Body a need not be closed. Filters
+    /// and motions are not looked at.
+    ///
+    /// Raises pliant.Error: NoSuchBody, SameBody if a is b, NotClosed if b has no inside.
+    ///
+    /// Cost: where all vertices are, closest points of the ones inside, and a query for the
+    /// intersections of both.
+    fn depth<'py>(&self, py: Python<'py>, a: Body, b: Body) -> Answer<'py> {
+        let found = search!(self, py, world => world.depth(a.0, b.0))?;
+        Ok(inside::depth(py, found)?)
     }
 
     /// Counters of the work of the last query, Query.prepare included: a Statistics.

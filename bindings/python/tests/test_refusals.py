@@ -96,6 +96,13 @@ def test_every_method_that_names_a_body_refuses_one_that_is_not_there() -> None:
         lambda: world.triangles(0),
         lambda: world.positions(0),
         lambda: world.tree_boxes(0, 0),
+        lambda: world.watertight(0),
+        lambda: world.points_inside(FLAT, 0),
+        lambda: world.closest_points(FLAT, 0),
+        lambda: world.signed_closest_points(FLAT, 0),
+        lambda: world.contained(pliant.Selection.between(0, 1)),
+        lambda: world.inside(1, 0),
+        lambda: world.depth(1, 0),
         *(query.all for query in queries),
         *(query.first for query in queries),
         *(partial(query.visit, lambda pair: True) for query in queries),
@@ -352,6 +359,7 @@ def test_what_is_no_selection_is_told_what_is(given: Any) -> None:
         lambda: world.first_impact(given),
         lambda: world.free_step(given),
         lambda: world.clearance(given, 1.0),
+        lambda: world.contained(given),
     ]
     for call in calls:
         with pytest.raises(TypeError, match=r"pliant.Selection: Selection.EVERYTHING, .*Selection.within\(a\); not .*") as refused:

@@ -244,6 +244,20 @@ def test_weld() -> None:
     world.validate()
 
 
+def test_points() -> None:
+    # A closed body of the same tetrahedron again and again.
+    count, corners = 20_000, np.concatenate([np.zeros((1, 3)), np.eye(3)])
+    sides = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    faces = (sides + 4 * np.arange(count)[:, None, None]).reshape(-1, 3)
+    world = world_of((faces, np.tile(corners, (count, 1))))
+    points = np.random.default_rng(3).uniform(0.1, 0.2, (40_000, 3))
+    world_is_stopped(world, lambda: world.points_inside(points, 0))
+    world_is_stopped(world, lambda: world.closest_points(points))
+    world.validate()
+    assert world.points_inside(points[:2], 0).windings.tolist() == [count] * 2
+    assert (world.closest_points(points[:2]).distances == points[:2].min(axis=1)).all()
+
+
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="signals that come again and again are not there")
 @pytest.mark.parametrize("ask", [pliant.vertex_triangle_impacts, pliant.edge_edge_impacts])
 def test_single_pairs(ask: Callable[..., object]) -> None:

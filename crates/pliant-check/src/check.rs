@@ -21,6 +21,7 @@ use crate::rest::RestShape;
 use crate::row::Row;
 use crate::sequence::{FIRST, MeshNumber, Sequence};
 use crate::settings::{self, Frames, Rest, Settings};
+use crate::solid::{self, PieceWorld};
 use crate::touching::{BYTES_OF_TOUCHING, only_touch};
 use crate::with_world;
 use pliant::{ContactKind, ErrorKind, Query, Selection};
@@ -39,6 +40,8 @@ pub struct Check {
     asked: Settings,
     /// Selection of the world's queries, once its bodies are there.
     of: Selection,
+    /// World of pieces and groups, once it was asked what lies inside them.
+    pieces: Option<PieceWorld>,
     /// Frames still to be checked.
     frames: Frames,
     baseline: Option<KnownPairs>,
@@ -278,6 +281,7 @@ impl Check {
             places: Places::new(),
             lives: Lives::new(),
             failed: None,
+            pieces: None,
             of: Selection::World,
             told: sequence.meshes.clone(),
             owners: Vec::new(),
@@ -539,21 +543,31 @@ impl Check {
             places: self.asked.places && !self.asked.first,
         };
         let mut found = self.found_in(frame, wanted, stop)?;
-        let meshes = &self.sequence.meshes;
+        let meshes = self.sequence.meshes.clone();
         let is_told = |&source: &usize| self.told[source] == meshes[source];
         let changed = (0..meshes.len()).filter(|source| !is_told(source));
         let changed: Vec<usize> = changed.collect();
         self.places.forget(&changed);
+        if self.asked.inside && self.bodies.count() > 1 {
+            let (bodies, pieces) = ((&self.bodies, &self.filter), &mut self.pieces);
+            let inside = solid::inside(&mut self.sequence, bodies, pieces, stop);
+            found.inside = Some(inside.map_err(|error| self.refused(frame, error))?);
+        }
         if wanted.places {
-            let places = self
+            let mut places = self
                 .places
                 .end(&SplitSources(&self.sequence.sources, &self.bodies));
+            if self.asked.solid {
+                let both = (&self.places, &mut places[..]);
+                let said = solid::say_depths(&mut self.sequence, both, stop);
+                said.map_err(|error| self.refused(frame, error))?;
+            }
             self.lives.take(frame, &places);
             found.places = Some(places);
         }
         let changed = changed.into_iter();
         found.changed = changed.map(|it| self.bodies.of_source(it).start).collect();
-        self.told.clone_from(meshes);
+        self.told = meshes;
         self.remarks.end(frame, &self.sequence.sources);
         self.frames.start = frame.saturating_add(self.frames.step);
         self.frames.count -= 1;

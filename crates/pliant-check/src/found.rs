@@ -5,6 +5,7 @@
 
 use crate::places::Place;
 use crate::row::Row;
+use crate::solid::Inside;
 use pliant::ContactKind;
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -41,6 +42,9 @@ pub struct Found {
     /// [`crossing_edges`](crate::Settings::crossing_edges) is not set, or only the first pair was
     /// asked for.
     pub crossing_edges: Option<Vec<CrossingEdges>>,
+    /// Components of bodies that lie inside other bodies. `None` if [`inside`](crate::Settings::inside)
+    /// is not set, or there is one body.
+    pub inside: Option<Inside>,
     /// Number of pairs left out because the baseline has them. `None` without a baseline, or if the
     /// search stopped at the first new pair.
     pub left_out: Option<usize>,
@@ -230,6 +234,7 @@ impl<'a> Taker<'a> {
             gaps: Vec::new(),
             adjacent: None,
             crossing_edges: None,
+            inside: None,
             left_out: baseline.map(|_| 0),
             only_touching: None,
             degenerate: 0,

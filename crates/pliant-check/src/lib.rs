@@ -57,6 +57,7 @@
 //! | `interval.rs`, `elements.rs` | impacts between two frames; owners of vertices and edges |
 //! | `union_find.rs` | union-find over numbers |
 //! | `joined.rs`, `places.rs`, `lives.rs` | vertices joined by hits; places; their lives |
+//! | `solid.rs` | closed bodies as solids: what lies inside, how deep places are |
 //! | `touching.rs` | places where surfaces only touch |
 //! | `baseline.rs` | pairs of an earlier check, which are left out |
 //! | `one_point.rs` | refusal of too many coincident point triangles |
@@ -83,6 +84,7 @@ mod rest;
 mod row;
 mod sequence;
 mod settings;
+mod solid;
 mod touching;
 mod union_find;
 
@@ -98,3 +100,4 @@ pub use places::{BodyThere, Place, Places};
 pub use remarks::{AtSeams, Parted};
 pub use row::Row;
 pub use settings::{Baseline, Frames, Group, LabelFile, Rest, Settings, Split};
+pub use solid::{Inside, Nested};

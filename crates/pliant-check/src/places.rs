@@ -31,6 +31,9 @@ pub struct Place {
     /// Length of the segments in which pairs meet, all together. Triangles of one plane have none,
     /// and several pairs in one segment, along an edge, have one.
     pub length: f64,
+    /// Depth of the deepest vertex inside the other body that is linked with the place by vertices
+    /// inside; 0 if there is none. `None` if [`solid`](crate::Settings::solid) is not set.
+    pub depth: Option<f64>,
 }
 
 /// Triangles of one body in a place.
@@ -178,6 +181,12 @@ impl Places {
         self.pairs[slot as usize].take(row, &corners, &mut self.along_edges);
     }
 
+    /// Source and vertex of all vertices of places in the frame ended last, and the number of the
+    /// place.
+    pub(crate) fn vertices(&self) -> &[([u32; 2], usize)] {
+        &self.before
+    }
+
     /// Forgets the vertices of sources whose mesh has changed since the frame before.
     pub fn forget(&mut self, changed: &[usize]) {
         if !changed.is_empty() {
@@ -206,6 +215,7 @@ impl Places {
                     lower: none.lower,
                     upper: none.upper,
                     length: none.length,
+                    depth: None,
                 });
             } else {
                 place_of[slot] = place_of[root];

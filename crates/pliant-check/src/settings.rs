@@ -59,6 +59,12 @@ pub struct Settings {
     /// frames. Not with [`within`](Self::within), nor with [`baseline`](Self::baseline), whose
     /// pairs are pairs of triangles.
     pub swept: bool,
+    /// Also finds components of bodies that lie inside other bodies, which no pair tells:
+    /// [`Found::inside`](crate::Found). Bodies that are not closed have no inside.
+    pub inside: bool,
+    /// Takes closed bodies for solids: says how deep each of [`places`](Self::places) is, in
+    /// [`Place::depth`](crate::Place).
+    pub solid: bool,
     /// Finds at most one pair in each frame: with [`within`](Self::within), the nearest.
     ///
     /// Between two frames, the first impact.
@@ -186,6 +192,8 @@ impl Default for Settings {
             ignore_adjacent: false,
             crossing_edges: false,
             closest_points: false,
+            inside: false,
+            solid: false,
             first: false,
             listed: true,
             max_list: u64::MAX,

@@ -22,7 +22,8 @@ pub struct Statistics {
     /// be opened.
     pub node_pairs: u64,
     /// Pairs of triangles with overlapping boxes, which were therefore decided, or near enough to
-    /// be measured. Within a body, pairs that share a vertex are not counted.
+    /// be measured; of points and triangles likewise. Within a body, pairs that share a vertex are
+    /// not counted.
     pub candidate_pairs: u64,
     /// Pairs of moving elements that were decided one by one, because separating directions in
     /// single precision did not keep them apart.

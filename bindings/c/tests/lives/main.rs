@@ -2,6 +2,7 @@
 
 mod answers;
 mod edits;
+mod inside;
 mod looks;
 
 use pliant::{
@@ -387,12 +388,15 @@ fn life<S: Scalar>(seed: u64, cast: fn(f64) -> S) {
         let ids = [0, 1].map(|place| bodies.get(place).copied());
         compare(c, &mut rust, Selection::Everything);
         answers::compare(c, &mut rust, Selection::Everything);
+        inside::compare(c, &mut rust, Selection::Everything);
         compare(c, &mut rust, Selection::World);
         followed.update(&mut rust);
         if let [Some(a), Some(b)] = ids {
             compare(c, &mut rust, Selection::Between(b, a));
             answers::compare(c, &mut rust, Selection::Within(a));
             answers::compare_bodies(c, &mut rust, a, b);
+            inside::compare(c, &mut rust, Selection::Between(b, a));
+            inside::compare_bodies(c, &mut rust, a, b);
             let mut copy = null_mut();
             // SAFETY: the world and all arguments are there.
             unsafe {
@@ -400,6 +404,7 @@ fn life<S: Scalar>(seed: u64, cast: fn(f64) -> S) {
                 let mut own = rust.clone();
                 compare(copy, &mut own, Selection::Everything);
                 looks::compare(copy, &own);
+                inside::compare_with_a_solid((copy, &mut own), a, cast);
                 pliant_world_free(copy);
             }
         }

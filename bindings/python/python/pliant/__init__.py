@@ -26,7 +26,7 @@ A hit is a row of four numbers, uint32: body, triangle, body, triangle. Rows are
 Two triangles intersect as closed sets: touching in one point counts, and so does coplanar overlap.
 A degenerate triangle is the segment or point that it is. The decision is that of exact arithmetic
 on the coordinates given. Within a body, triangles that share a vertex are left out. Surfaces only:
-a body wholly inside another meets none of its triangles.
+a body wholly inside another meets none of its triangles, and World.contained finds it.
 
 help(pliant.World) lists all questions, with shapes, dtypes, errors and cost.
 """
@@ -62,13 +62,16 @@ from ._types import (
     Changed,
     ClosePair,
     ClosePairs,
+    ClosestPoints,
     Contact,
     ContactKind,
     Contacts,
+    Containment,
     CrossingEdge,
     CrossingEdges,
     CurveEnd,
     Curves,
+    Depth,
     EdgeEdge,
     Edited,
     Error,
@@ -84,6 +87,7 @@ from ._types import (
     Interval,
     Kinds,
     Life,
+    Located,
     Mesh,
     OpenMesh,
     Pair,
@@ -95,6 +99,7 @@ from ._types import (
     TreeBoxes,
     TreeShape,
     VertexTriangle,
+    Watertight,
 )
 
 __all__ = [
@@ -107,14 +112,17 @@ __all__ = [
     "ClosePair",
     "ClosePairs",
     "CloseQuery",
+    "ClosestPoints",
     "Contact",
     "ContactKind",
     "ContactQuery",
     "Contacts",
+    "Containment",
     "CrossingEdge",
     "CrossingEdges",
     "CurveEnd",
     "Curves",
+    "Depth",
     "EdgeEdge",
     "Edit",
     "Edited",
@@ -132,6 +140,7 @@ __all__ = [
     "Interval",
     "Kinds",
     "Life",
+    "Located",
     "Mesh",
     "OpenMesh",
     "Pair",
@@ -145,6 +154,7 @@ __all__ = [
     "TreeBoxes",
     "TreeShape",
     "VertexTriangle",
+    "Watertight",
     "World",
     "__version__",
     "check",

@@ -27,11 +27,14 @@ from ._types import (
     Changed,
     ClosePair,
     ClosePairs,
+    ClosestPoints,
     Contact,
     ContactKind,
     Contacts,
+    Containment,
     CrossingEdge,
     Curves,
+    Depth,
     EdgeEdge,
     Edited,
     FeaturePairs,
@@ -42,6 +45,7 @@ from ._types import (
     Impact,
     Impacts,
     Life,
+    Located,
     Mesh,
     OpenMesh,
     Pair,
@@ -52,6 +56,7 @@ from ._types import (
     TreeBoxes,
     TreeShape,
     VertexTriangle,
+    Watertight,
 )
 
 __all__ = [
@@ -94,6 +99,7 @@ _Corner: TypeAlias = Sequence[float] | NDArray[np.floating[Any]]
 _Partition: TypeAlias = Literal["centre", "mean", "balanced", "connectivity"]
 _Update: TypeAlias = Literal["bottom-up", "top-down", "hybrid"]
 _Name: TypeAlias = str | PathLike[str] | int
+_Rule: TypeAlias = Literal["nonzero", "positive", "parity"]
 _Broad: TypeAlias = Literal["brute", "sweep", "tree", "auto"]
 
 class _Options(TypedDict):
@@ -293,6 +299,24 @@ class World:
         """Time t from 0 to 1 up to which everything stays further apart than min_distance."""
     def clearance(self, of: Selection, cut_off: float) -> dict[int, NDArray[np.float64]]:
         """How far each vertex may move before anything can touch: dict of body to (n,) float64."""
+    def watertight(self, body: SupportsIndex) -> Watertight:
+        """Edges at which a body is not a closed surface, a Watertight: open, turned, doubled."""
+    def points_inside(self, points: _Array, body: SupportsIndex, rule: _Rule = "nonzero") -> Located:
+        """Whether points are inside a closed body, outside, or on its surface: a Located."""
+    def inside(self, a: SupportsIndex, b: SupportsIndex, rule: _Rule = "nonzero") -> Located:
+        """Whether each vertex of body a is inside body b, a closed one: a Located of (n,) arrays."""
+    def contained(self, of: Selection = ...) -> Containment:
+        """Components of bodies that lie inside other bodies: a Containment."""
+    def closest_points(
+        self, points: _Array, body: SupportsIndex | None = None, cut_off: float = ...,
+    ) -> ClosestPoints:
+        """Closest point of a body, or of all bodies, for each of some points: a ClosestPoints."""
+    def signed_closest_points(
+        self, points: _Array, body: SupportsIndex, cut_off: float = ...,
+    ) -> ClosestPoints:
+        """Closest point of a closed body for each of some points, with signed distances."""
+    def depth(self, a: SupportsIndex, b: SupportsIndex) -> Depth:
+        """How deep body a reaches into body b, a closed one, in their present shapes: a Depth."""
     def statistics(self) -> Statistics:
         """Counters of the work of the last query, Query.prepare included: a Statistics."""
     def memory_usage(self) -> int:
@@ -454,6 +478,7 @@ def check(
     skip_degenerate: bool = False,
     crossing_edges: bool = False,
     places: bool = False,
+    solid: bool = False,
     frames: range | None = None,
     clip: str | None = None,
     fps: float = 30.0,

@@ -41,6 +41,8 @@ class Error(ValueError):
       BadTime           a time is not from 0 to 1
       DifferentCounts   start and end have different numbers of pairs
       BadCorner         a coordinate of a pair is NaN, infinite or above 3.4e38
+      BadPoint          a coordinate of a point is NaN, infinite or above 3.4e38: point, position
+      NotClosed         a body has no inside: some_edges, count
       Busy              the world is answering another call
       BadOption         an option has no such value
 
@@ -85,11 +87,15 @@ class Error(ValueError):
     edges: int | None = None
     #: Both vertices of the edge.
     ends: tuple[int, int] | None = None
+    #: Some of the edges at which a body is not closed, two vertices each.
+    some_edges: list[tuple[int, int]] | None = None
+    #: The point, counted from 0.
+    point: int | None = None
     #: The hit of the list, counted from 0.
     hit: int | None = None
     #: Thickness of the vertex.
     thickness: float | None = None
-    #: Position of the vertex.
+    #: Position of the vertex or the point.
     position: tuple[float, float, float] | None = None
     #: Number of vertices of the body.
     expected: int | None = None
@@ -97,7 +103,7 @@ class Error(ValueError):
     found: int | None = None
     #: "triangles", "vertices" or "pairs"; of a wrong length, "positions", "groups" or "thicknesses".
     what: str | None = None
-    #: Number of triangles, vertices or pairs.
+    #: Number of triangles, vertices or pairs; of edges at which a body is not closed.
     count: int | None = None
     #: Largest number allowed, of hits too.
     limit: int | None = None
@@ -276,6 +282,103 @@ class PairDistances(NamedTuple):
     """(k, 4): of the corners in the closest points. Those of either element sum to 1, rounded."""
     kind: NDArray[np.uint8]
     """(k,): a FeatureKind each, from the weights that are above 0, which are rounded."""
+
+
+class Watertight(NamedTuple):
+    """Edges at which a mesh is not a closed surface: see World.watertight.
+
+    Each array is (e, 2): two vertices, the smaller first, sorted, an edge once.
+    """
+
+    open: NDArray[np.uint32]
+    """Edges in an odd number of triangles: the border of a hole, where that number is 1."""
+    turned: NDArray[np.uint32]
+    """Edges in an even number of triangles, along which more go in one direction than in the
+    other: neighbours that are turned against each other."""
+    doubled: NDArray[np.uint32]
+    """Edges in more than two triangles. A surface is as closed with them as without."""
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether each edge is in as many triangles in one direction as in the other."""
+        return len(self.open) == len(self.turned) == 0
+
+    @property
+    def is_even(self) -> bool:
+        """Whether each edge is in an even number of triangles, whichever way these are turned."""
+        return len(self.open) == 0
+
+
+class Located(NamedTuple):
+    """Where points are: inside a closed body, outside, or on its surface: see points_inside."""
+
+    sides: NDArray[np.int8]
+    """(k,): 1 inside, 0 on the surface, -1 outside."""
+    windings: NDArray[np.int32]
+    """(k,): how often the surface winds round each; 0 on it. With rule="parity" 1 inside, else
+    0."""
+
+    @property
+    def is_inside(self) -> NDArray[np.bool_]:
+        """(k,): whether each is inside, and not on the surface."""
+        return np.greater(self.sides, 0)
+
+
+class Containment(NamedTuple):
+    """Components that lie inside other bodies: see World.contained."""
+
+    all: NDArray[np.uint32]
+    """(c, 3), sorted: body, component of it, body that this lies inside."""
+    open: list[int]
+    """Bodies that are not closed, so that nothing is said to lie inside them; sorted."""
+
+
+class ClosestPoints(NamedTuple):
+    """Closest points of bodies, a row for each point: see World.closest_points.
+
+    The triangle is exactly the nearest, and of equally near ones the first, by body and number. The
+    distance is off by at most 2^-30 of itself and 2^-1074. It is 0 exactly on the surface.
+    """
+
+    found: NDArray[np.bool_]
+    """(k,): whether any is within the cut-off."""
+    bodies: NDArray[np.uint32]
+    """(k,): body that has the triangle; 0xFFFFFFFF where none is found."""
+    triangles: NDArray[np.uint32]
+    """(k,): its nearest triangle; 0xFFFFFFFF where none is found."""
+    distance: NDArray[np.float64]
+    """(k,), in the unit of the positions; inf where none is found. Of signed_closest_points below 0
+    inside the body."""
+    points: NDArray[np.float64]
+    """(k, 3): the closest points, rounded; NaN where none is found."""
+    barycentric: NDArray[np.float64]
+    """(k, 3): weights of the corners of the triangle in the closest point; NaN where none is
+    found."""
+    direction: NDArray[np.float64]
+    """(k, 3), of length 1, from the closest point to the given one. Zeros where they are one, NaN
+    where none is found."""
+    features: NDArray[np.uint8]
+    """(k,): the smallest part of the triangle that has the closest point, exactly. 0 to 2 is a
+    corner. 3 to 5 is inside the edge from corner 0, 1 or 2 to the next. 6 is inside the triangle,
+    and 255 where none is found."""
+
+
+class Depth(NamedTuple):
+    """How deep a body reaches into a closed one: see World.depth.
+
+    The deepest point of its surface is at least as deep as its deepest vertex. It is deeper by at
+    most the largest distance of a point of a triangle from its nearest corner.
+    """
+
+    of_vertices: NDArray[np.float64]
+    """(n,): distance of each vertex inside from the surface of the other body; 0 of all others."""
+    vertex: int | None
+    """The deepest vertex, the first of several; None if none is inside."""
+    at_least: float
+    """Its depth, else 0."""
+    at_most: float
+    """Upper bound of the depth of all points of the surface; 0 if no vertex is inside and no
+    triangle meets the other body."""
 
 
 class ContactKind(IntEnum):
@@ -557,6 +660,9 @@ class Place:
     triangles."""
     upper: tuple[float, float, float]
     """The largest."""
+    depth: float | None = None
+    """How far the deepest vertex of the place is inside the other body, linked with it by vertices
+    inside; 0 if there is none. None without solid=True."""
 
 
 @dataclass(frozen=True)
@@ -693,6 +799,11 @@ class Frame:
     Pairs number triangles as in the mesh of their frame."""
     places: tuple[Place, ...] | None
     """Places that the pairs join into, most pairs first; None without places=, and with first."""
+    inside: tuple[tuple[int, int, int], ...] = ()
+    """Components that lie inside bodies, which no pair tells: body, component, body around it. The
+    component is numbered by the lowest of its triangles, from 0."""
+    not_closed: tuple[int, ...] = ()
+    """Bodies that are not closed, so that nothing is said to lie inside them."""
     interval: Interval | None = None
     """Contacts on the way to the next frame; None without swept=, and in the last frame."""
 
@@ -722,6 +833,7 @@ class OpenMesh(Protocol):
 
 
 _PUBLIC = (
+    *(Watertight, Located, Containment, ClosestPoints, Depth),
     *(Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, FeatureKind, FeaturePairs, PairDistances, HitRows, Contact, ContactKind, Contacts),
     *(CrossingEdge, Segments, CurveEnd, Curves, Changed, Edited, Fused, Piece, Impact, Impacts, FreeStep, TreeBoxes, TreeShape, Statistics),
     *(Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Adjacent, CrossingEdges, Frame, Mesh, OpenMesh),

@@ -258,6 +258,7 @@ fn of_very_many_places_the_largest_are_kept() {
         lower: [0.0; 3],
         upper: [1.0, 3.0, 2.0],
         length: 1.0,
+        depth: None,
     };
     let mut lives = Lives::new();
     for frame in 0..50 {

@@ -65,6 +65,11 @@ pub(crate) struct Arguments {
     /// clear what a side is, a place stays. Not with --within
     #[arg(long, conflicts_with = "within")]
     pub(super) crossing: bool,
+    /// Take closed bodies for solids: a body that lies inside another, and meets none of its
+    /// triangles, makes the exit code 1 too. Places have a depth: how far the deepest vertex is
+    /// inside. What lies inside is said in any case
+    #[arg(long)]
+    pub(super) solid: bool,
     /// Leave out triangles of one body that share a vertex and meet beyond it. They go through each
     /// other elsewhere, lie folded onto each other, or are one triangle twice. They are counted
     /// apart, wherever a body is checked against itself, or groups of one file against each other
@@ -182,6 +187,7 @@ Examples:
   pliant check part.stl --weld 1e-6                  corners nearly coincide
   pliant check left.ply right.ply --crossing         not what only touches
   pliant check part.stl --ignore-adjacent            only what shares no vertex
+  pliant check box.stl part.stl --solid              nothing inside either
   pliant check walk.npz --report walk.html           a page: in motion, hits red
   pliant check walk.npz --png worst.png --frame 50   its largest place
   pliant check a.ply --png a.png --view top --size 800x600
@@ -198,7 +204,8 @@ With --swept, elements count that meet on the way, except those that meet in the
 An element that two bodies share is of both. \
 The way leads from a frame to the next: where a mesh changes between them, nothing is looked for, \
 and a note says so.
-Exit code 0: nothing intersects, is at most D apart, or meets on the way. 1: something does. \
+Exit code 0: nothing intersects, is at most D apart, or meets on the way. 1: something does; \
+with --solid also if something lies inside a body. \
 2: it could not be checked; standard error says why.
 Memory: at most 3.5 times two frames (positions and triangles) and 12 MB, however many frames \
 there are. 7.5 times two frames where the mesh changes from file to file, and 11 times with \

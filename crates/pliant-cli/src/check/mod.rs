@@ -121,6 +121,8 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
         ignore_adjacent: arguments.ignore_adjacent,
         crossing_edges: !arguments.quiet && arguments.format == Format::Json,
         swept: arguments.swept,
+        inside: arguments.solid || !arguments.quiet,
+        solid: arguments.solid,
         closest_points: arguments.pictures.any(),
         max_list: arguments.max_memory,
         split: arguments.split.map(|split| match split {

@@ -10,6 +10,7 @@ mod convert;
 mod crossing;
 mod formats;
 mod hits;
+mod inside;
 mod labels;
 mod memory;
 mod messages;

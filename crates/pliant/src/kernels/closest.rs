@@ -647,7 +647,7 @@ fn lanes<I: Simd, S: Real>(i: I, pairs: &[FourCorners<S>; 4], which: usize) -> V
 mod tests {
     use super::*;
     use crate::kernels::{Instructions, dispatch};
-    use pliant_exact::distance::{Primitives, closest};
+    use pliant_exact::distance::{Primitives, closest, closest_features};
     use pliant_oracle::{Class, Random, compare_distance, compare_dot, compare_length};
     use std::cmp::Ordering;
 
@@ -678,6 +678,33 @@ mod tests {
         });
         let pairs = corners.each_ref().map(<[_; 4]>::each_ref);
         of_elements(i, matches!(all[0], Primitives::EdgeEdge(_)), &pairs)
+    }
+
+    /// A part that is certain is one that exact arithmetic finds, whatever the instruction set.
+    #[test]
+    fn certain_parts_are_exact_ones() {
+        let mut random = Random::new(57);
+        let [mut certain, mut total] = [0; 2];
+        for round in 0..3_000 {
+            let class = Class::ALL[round % Class::ALL.len()];
+            for (elements, ..) in hard_pairs(&class.pair(&mut random)) {
+                let Primitives::VertexTriangle(corners) = elements else {
+                    continue;
+                };
+                let four = [corners.map(|[x, y, z]| [x, y, z, z]); 4];
+                let pairs = four.each_ref().map(<[_; 4]>::each_ref);
+                let mut exact = Vec::new();
+                closest_features(&elements, |[_, on]| exact.push(on));
+                for instructions in Instructions::all() {
+                    let parts = dispatch!(instructions, i => certain_parts(i, &pairs));
+                    assert_eq!(parts, [parts[0]; 4]);
+                    assert!(parts[0].is_none_or(|on| exact == [on]), "{elements:?}");
+                    certain += u32::from(parts[0].is_some());
+                    total += 1;
+                }
+            }
+        }
+        assert!(certain > total / 5, "{certain} of {total}");
     }
 
     #[test]

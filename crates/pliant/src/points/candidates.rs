@@ -287,7 +287,8 @@ const INSIDE: [[u64; 3]; 2] = [[u64::MAX; 3]; 2];
 
 /// Corners that span a part of a triangle, the same for every triangle that has it.
 fn part(triangle: &[[f64; 3]; 3], on: Feature) -> [[u64; 3]; 2] {
-    // As bits, since a thread that flushes subnormal numbers compares no others. Zero has two signs.
+    // As bits, since a thread that flushes subnormal numbers compares no others. Zero has two
+    // signs.
     let bits = |k: usize| {
         let bits = |x: f64| if x == 0.0 { 0 } else { x.to_bits() };
         triangle[k].map(bits)

@@ -16,8 +16,9 @@ use crate::ids::BodyId;
 use crate::kernels::Coordinate;
 use crate::threads::Interrupt;
 use std::ops::ControlFlow;
+use std::sync::atomic::AtomicU64;
 
-/// A hint is of use if it is at most so many times as far as it was.
+/// A hint is of use if its distance has at most grown by this factor.
 const FARTHER: f64 = 2.0;
 
 /// Finds the nearest triangles of a body, where they are nearer than those that are known. Of
@@ -45,64 +46,73 @@ pub(crate) fn find_nearest<S: Coordinate>(
         return Ok(());
     }
     let within = together(&bounds, body.mesh().topology().live_count());
+    let looked_at = AtomicU64::new(0);
     for_each_tree(common, id, points.len(), interrupt, &mut |trees| {
-        share(trees, points, nearest, &|trees, job, points, nearest| {
-            let Job {
-                reach,
-                packets,
-                boxes,
-                candidates,
-            } = job;
-            let refit = trees.refit();
-            let instructions = refit.instructions;
-            packets.clear();
-            let origin = trees.view().read.source.shape().origin;
-            let padded: Vec<[S; 4]> = points.iter().map(|&[x, y, z]| [x, y, z, z]).collect();
-            candidates.hinted(trees.view(), nearest);
-            candidates.bound(instructions, trees.view(), &padded, nearest);
-            // The others go to a leaf, each to one of its own, for a tight limit.
-            boxes.clear();
-            for (place, &point) in points.iter().enumerate() {
-                let at = Bounds {
-                    lo: point,
-                    hi: point,
-                };
-                let Nearest { limit, hint, .. } = nearest[place];
-                let is_lost = hint.is_none_or(|hint| limit > FARTHER * hint.distance);
-                if is_lost && gap(&bounds, &at) <= limit {
-                    boxes.push((place as u32, at.to_box(origin)));
+        share(
+            trees,
+            points,
+            nearest,
+            &looked_at,
+            &|trees, job, points, nearest| {
+                let Job {
+                    reach,
+                    packets,
+                    boxes,
+                    candidates,
+                } = job;
+                let refit = trees.refit();
+                let instructions = refit.instructions;
+                packets.clear();
+                let origin = trees.view().read.source.shape().origin;
+                let padded: Vec<[S; 4]> = points.iter().map(|&[x, y, z]| [x, y, z, z]).collect();
+                candidates.hinted(trees.view(), nearest);
+                candidates.bound(instructions, trees.view(), &padded, nearest);
+                // The others go to a leaf, each to one of its own, for a tight limit.
+                boxes.clear();
+                for (place, &point) in points.iter().enumerate() {
+                    let at = Bounds {
+                        lo: point,
+                        hi: point,
+                    };
+                    let Nearest { limit, hint, .. } = nearest[place];
+                    let is_lost = hint.is_none_or(|hint| limit > FARTHER * hint.distance);
+                    if is_lost && gap(&bounds, &at) <= limit {
+                        boxes.push((place as u32, at.to_box(origin)));
+                    }
                 }
-            }
-            reach.go_near(trees, boxes)?;
-            candidates.near(instructions, trees.view(), reach, boxes);
-            candidates.bound(instructions, trees.view(), &padded, nearest);
-            packets.clear();
-            for (run, all) in runs(points, within) {
-                let farthest = nearest[run.clone()]
-                    .iter()
-                    .fold(0.0, |m: f64, it| m.max(it.limit));
-                if gap(&bounds, &all) > farthest {
-                    continue;
+                reach.go_near(trees, boxes)?;
+                candidates.near(instructions, trees.view(), reach, boxes);
+                candidates.bound(instructions, trees.view(), &padded, nearest);
+                packets.clear();
+                for (run, all) in runs(points, within) {
+                    let farthest = nearest[run.clone()]
+                        .iter()
+                        .fold(0.0, |m: f64, it| m.max(it.limit));
+                    if gap(&bounds, &all) > farthest {
+                        continue;
+                    }
+                    let mut packet = Packet::from(run.start);
+                    for place in run {
+                        let (lo, hi) = (points[place], points[place]);
+                        packet.push_near(&Bounds { lo, hi }.to_box(origin), nearest[place].limit);
+                    }
+                    packets.push(packet);
                 }
-                let mut packet = Packet::from(run.start);
-                for place in run {
-                    let (lo, hi) = (points[place], points[place]);
-                    packet.push_near(&Bounds { lo, hi }.to_box(origin), nearest[place].limit);
-                }
-                packets.push(packet);
-            }
-            reach.meet(trees, packets)?;
-            let view = trees.view();
-            candidates.met(view, reach, packets);
-            candidates.bound(instructions, view, &padded, nearest);
-            candidates.drop_far(nearest);
-            candidates.set_aside(nearest);
-            candidates.bound_closely(instructions, view, &padded, nearest);
-            candidates.drop_far(nearest);
-            candidates.keep_nearest(instructions, view, &padded, nearest);
-            ControlFlow::Continue(())
-        })
-    })
+                reach.meet(trees, packets)?;
+                let view = trees.view();
+                candidates.met(view, reach, packets);
+                candidates.bound(instructions, view, &padded, nearest);
+                candidates.drop_far(nearest);
+                candidates.set_aside(nearest);
+                candidates.bound_closely(instructions, view, &padded, nearest);
+                candidates.drop_far(nearest);
+                candidates.keep_nearest(instructions, view, &padded, nearest);
+                ControlFlow::Continue(())
+            },
+        )
+    })?;
+    common.statistics.candidate_pairs += looked_at.into_inner();
+    Ok(())
 }
 
 /// Finds the nearest triangles of all bodies, those near all points first.

@@ -57,6 +57,8 @@ pub(super) struct Reach {
     next: Vec<[u32; 2]>,
     leaves: Vec<[u32; 2]>,
     pub(super) met: Vec<Met>,
+    /// Pairs of a box and a triangle so far.
+    pub(super) looked_at: u64,
     stale: DirtySet,
     lists: [Vec<WideNodeId>; 2],
 }
@@ -95,7 +97,9 @@ impl Reach {
         }
         std::mem::swap(&mut self.now, &mut self.leaves);
         self.make_leaves(trees)?;
-        self.into_leaves(trees.view(), packets, trees.refit().instructions);
+        self.reach_triangles(trees.view(), packets, trees.refit().instructions);
+        let pairs = self.met.iter().map(|it| u64::from(it.mask.count_ones()));
+        self.looked_at += pairs.sum::<u64>();
         ControlFlow::Continue(())
     }
 
@@ -201,7 +205,7 @@ impl Reach {
     }
 
     /// Goes from leaves to the triangles whose boxes are overlapped.
-    fn into_leaves<S: Coordinate>(
+    fn reach_triangles<S: Coordinate>(
         &mut self,
         view: View<S>,
         packets: &[Packet],

@@ -15,13 +15,14 @@ use crate::queries::Needs;
 use crate::threads::{Grain, Interrupt};
 use crate::update::Partner;
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Points that go down a tree together.
 pub(super) const TOGETHER: usize = 256;
-/// Points are many if a body has at most so many triangles for each.
+/// Points are many if a body has at most this number of triangles for each.
 const TRIANGLES_OF_ONE: usize = 64;
 
-/// Shows each tree of a body to `work`, brought up to date for so many points.
+/// Shows each tree of a body to `work`, brought up to date for a number of points.
 ///
 /// Ends early if `work` breaks; fails if interrupted.
 pub(super) fn for_each_tree<S: Coordinate>(
@@ -75,10 +76,13 @@ pub(super) type Work<'w, S, R> =
     &'w (dyn Fn(&mut Trees<S>, &mut Job, &[[S; 3]], &mut [R]) -> ControlFlow<()> + Sync);
 
 /// Has threads do the work for all points, some at a time. Breaks if it does, or if interrupted.
+///
+/// Counts the pairs of a point and a triangle that were looked at.
 pub(super) fn share<S: Coordinate, R: Send>(
     mut trees: Trees<S>,
     points: &[[S; 3]],
     results: &mut [R],
+    looked_at: &AtomicU64,
     work: Work<S, R>,
 ) -> ControlFlow<()> {
     let all = |trees: &mut Trees<S>, points: &[[S; 3]], results: &mut [R]| {
@@ -87,6 +91,7 @@ pub(super) fn share<S: Coordinate, R: Send>(
         for (points, results) in some {
             work(trees, &mut job, points, results)?;
         }
+        looked_at.fetch_add(job.reach.looked_at, Ordering::Relaxed);
         ControlFlow::Continue(())
     };
     let Trees::Made(view, refit) = trees else {

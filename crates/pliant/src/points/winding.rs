@@ -16,6 +16,7 @@ use crate::threads::Interrupt;
 use crate::traversal::View;
 use pliant_exact::{Axis, Crossing, crossing};
 use std::ops::ControlFlow;
+use std::sync::atomic::AtomicU64;
 
 /// What all triangles of a body do to the ray from a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,11 +52,13 @@ pub(crate) fn windings<S: Coordinate>(
     let bounds = its_body.bounds();
     let within = together(&bounds, its_body.mesh().topology().live_count());
     let mut windings = vec![Winding::default(); points.len()];
+    let looked_at = AtomicU64::new(0);
     for_each_tree(common, body, points.len(), interrupt, &mut |trees| {
         share(
             trees,
             points,
             &mut windings,
+            &looked_at,
             &|trees, job, points, windings| {
                 let origin = trees.view().read.source.shape().origin;
                 let Job { reach, packets, .. } = job;
@@ -91,6 +94,7 @@ pub(crate) fn windings<S: Coordinate>(
             },
         )
     })?;
+    common.statistics.candidate_pairs += looked_at.into_inner();
     Ok(windings)
 }
 

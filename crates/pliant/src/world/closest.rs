@@ -12,9 +12,9 @@ impl<S: Scalar> World<S> {
     /// Finds the closest point of a body, or of all bodies, for each of some points: shape (k,).
     ///
     /// None for points that are further than `cut_off` from it, a length in the unit of the
-    /// positions that may be infinite; this is decided exactly. Distances are at least 0, and bodies
-    /// need not be closed. [`ClosestPoint`] says how good they are. Filters and motions do not
-    /// count.
+    /// positions that may be infinite; this is decided exactly. Distances are at least 0, and
+    /// bodies need not be closed. [`ClosestPoint`] says how good they are. Filters and motions do
+    /// not count.
     ///
     /// Cost: refitting the body, in whole if points are many; and for each point the nodes and
     /// triangles that are about as near as the nearest one.
@@ -55,7 +55,8 @@ impl<S: Scalar> World<S> {
     ///
     /// As [`closest_points`](Self::closest_points), but distances are negative for points inside.
     /// The sign is that of [`points_inside`](Self::points_inside), which is exact, with the rule
-    /// [`NonZero`](InsideRule::NonZero). No normals are asked.
+    /// [`NonZero`](InsideRule::NonZero). No normals are asked. Of a body that overlaps itself the
+    /// closest point may be on a wall within.
     ///
     /// # Errors
     ///

@@ -1,8 +1,10 @@
 //! Containment: components of bodies that lie wholly inside other bodies.
 
 use super::handle::World;
+use super::inside::of_vertex;
 use super::scalar::Scalar;
 use crate::error::Error;
+use crate::geometry::Bounds;
 use crate::ids::BodyId;
 use crate::points::{InsideRule, Side};
 use crate::queries::ContactKind;
@@ -38,9 +40,12 @@ impl<S: Scalar> World<S> {
     /// A component lies inside a closed body if none of its triangles crosses or overlaps the
     /// body's, every vertex of it is inside or on the body, and one is inside. Inside is said by
     /// [`NonZero`](InsideRule::NonZero). Of a selection of all bodies these are the pairs that may
-    /// meet, as filters say; of two bodies either in the other. A body is never inside itself.
+    /// meet, as filters say; of two bodies either in the other. A body is never
+    /// inside itself, so of one body nothing is listed.
     ///
-    /// Bodies that are not closed are listed, as nothing is said of their inside.
+    /// Of a component that touches the body its corners are looked at: a triangle may span a hole
+    /// of the body whose edge it touches. Bodies that are not closed are listed, as nothing is said
+    /// of their inside.
     ///
     /// Cost: for bodies whose boxes overlap a ray for each component; where it begins inside, a
     /// query for the contacts of both.
@@ -78,24 +83,32 @@ impl<S: Scalar> World<S> {
             _ => self.bodies_of(of),
         };
         let mut found = Containment::default();
-        let mut closed = Vec::new();
+        // By their lower ends along an axis, so that few pairs are looked at.
+        let mut boxes = Vec::with_capacity(bodies.len());
         for &id in &bodies {
-            if self.state().body(id)?.mesh().watertight().is_closed() {
-                closed.push(id);
-            } else {
+            let body = self.state().body(id)?;
+            let is_closed = body.mesh().watertight().is_closed();
+            if !is_closed {
                 found.open.push(id);
             }
+            boxes.push((body.bounds(), id, is_closed));
         }
+        let lower = |it: &(Bounds<S>, BodyId, bool)| Scalar::to_f64(it.0.lo[0]);
+        boxes.sort_by(|a, b| lower(a).total_cmp(&lower(b)));
+        let all = &self.state().common.bodies;
         let mut pairs = Vec::new();
-        for &inside in &closed {
-            let all = &self.state().common.bodies;
-            let large = all.get(inside)?;
-            for &id in bodies.iter().filter(|&&id| id != inside) {
-                let small = all.get(id)?;
-                let may_meet = matches!(of, Selection::Between(..)) || all.do_meet(small, large);
-                if small.bounds().overlaps(&large.bounds()) && may_meet {
-                    pairs.push([id, inside]);
+        for (place, (its_box, id, is_closed)) in boxes.iter().enumerate() {
+            let rest = boxes[place + 1..].iter();
+            for (other, other_id, other_is_closed) in
+                rest.take_while(|it| it.0.lo[0] <= its_box.hi[0])
+            {
+                let may_meet = matches!(of, Selection::Between(..))
+                    || all.do_meet(all.get(*id)?, all.get(*other_id)?);
+                if !its_box.overlaps(other) || !may_meet {
+                    continue;
                 }
+                pairs.extend(is_closed.then_some([*other_id, *id]));
+                pairs.extend(other_is_closed.then_some([*id, *other_id]));
             }
         }
         let mut statistics = self.state().common.done_early;
@@ -127,7 +140,8 @@ impl<S: Scalar> World<S> {
             }
         }
         let points: Vec<[S; 3]> = firsts.iter().map(|&it| positions[it as usize]).collect();
-        let located = self.find_points_inside(&points, inside, InsideRule::NonZero, question)?;
+        let located = self.find_points_inside(&points, inside, InsideRule::NonZero, question);
+        let located = located.map_err(|error| of_vertex(error, body, &firsts))?;
         let may_be = |&component: &u32| located[component as usize].side != Side::Outside;
         let mut left: BTreeSet<u32> = (0..firsts.len() as u32).filter(may_be).collect();
         if left.is_empty() {

@@ -12,20 +12,21 @@ use std::ops::ControlFlow;
 
 /// How deep a body reaches into a closed one, from [`World::depth`].
 ///
-/// The deepest point of the surface of `a` inside `b` is at least as deep as the deepest vertex, and
-/// at most `at_most`. The difference is one covering radius: how far a point of a triangle may be
-/// from its nearest corner. So it shrinks with the triangles. A volume is no depth: a thin sheet
+/// The deepest point of the surface of `a` inside `b` is at least as deep as the deepest vertex,
+/// and at most `at_most`. The difference is one covering radius: how far a point of a triangle may
+/// be from its nearest corner. So it shrinks with the triangles. A volume is no depth: a thin sheet
 /// that goes in deep has hardly any.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Depth {
-    /// Depth of each vertex of `a`, shape (n,): the distance of a vertex inside `b` from the surface
-    /// of `b`, and 0 of all others.
+    /// Depth of each vertex of `a`, shape (n,): the distance of a vertex inside `b` from the
+    /// surface of `b`, and 0 of all others.
     pub of_vertices: Vec<f64>,
     /// The deepest vertex, the first of several, if any is inside.
     pub vertex: Option<u32>,
     /// Its depth, else 0; as good as the distance of a [`ClosestPoint`](crate::ClosestPoint).
     pub at_least: f64,
-    /// Upper bound of the depth of all points of the surface of `a`; 0 if none is inside `b`.
+    /// Upper bound of the depth of all points of the surface of `a`. 0 if no triangle of `a` meets
+    /// `b` or has a corner inside.
     pub at_most: f64,
 }
 
@@ -34,7 +35,7 @@ impl<S: Scalar> World<S> {
     /// Measures how deep a body reaches into another, a closed one, in their present shapes.
     ///
     /// Inside is said by [`NonZero`](InsideRule::NonZero). Body `a` need not be closed. Filters and
-    /// motions do not count.
+    /// motions do not count. Of a body that overlaps itself its walls within count too.
     ///
     /// Cost: where all vertices are, closest points of the ones inside, and a query for the
     /// intersections of both.
@@ -111,7 +112,7 @@ impl<S: Scalar> World<S> {
                 let triangle = corners.map(|it| positions[it].map(Scalar::to_f64));
                 // Distances are off by 2^-30 of themselves.
                 let most = (deepest + covering_radius(&triangle)) * (1.0 + f64::powi(0.5, 28));
-                depth.at_most = depth.at_most.max(most);
+                depth.at_most = depth.at_most.max(most.next_up());
             }
         }
         self.verbs.state_mut().common.statistics = statistics;
@@ -120,26 +121,37 @@ impl<S: Scalar> World<S> {
 }
 
 /// The largest distance of a point of a triangle from its nearest corner, with an error of less
-/// than 2^-29 of itself.
+/// than 2^-40 of itself.
 ///
 /// That is the radius of the circle through the corners if all angles are acute. Else at most half
-/// of the longest side, since a circle round each end of it then covers the triangle.
+/// of the longest side, since a circle round each end of it then covers the triangle. The radius is
+/// taken from the two shorter sides, which then form an angle of 60 to 90 degrees, so that nothing
+/// cancels. If the shortest is below 2^-30 of the longest, both are the same.
 fn covering_radius(&[a, b, c]: &Triangle) -> f64 {
     let way = |p: Point, q: Point| [0, 1, 2].map(|axis| q[axis] - p[axis]);
-    let square = |[x, y, z]: Point| x * x + y * y + z * z;
-    let (e, f) = (way(a, b), way(a, c));
-    let mut squares = [square(e), square(f), square(way(b, c))];
-    squares.sort_unstable_by(f64::total_cmp);
-    let [s, m, l] = squares;
-    if s + m <= l {
-        return 0.5 * l.sqrt();
+    let mut sides = [way(a, b), way(b, c), way(c, a)];
+    let largest = sides
+        .as_flattened()
+        .iter()
+        .fold(0.0, |m: f64, x| m.max(x.abs()));
+    if largest == 0.0 {
+        return 0.0;
     }
+    // In units in which squares are neither lost nor infinite.
+    sides = sides.map(|side| side.map(|x| x / largest));
+    let square = |[x, y, z]: Point| x * x + y * y + z * z;
+    sides.sort_unstable_by(|p, q| square(*p).total_cmp(&square(*q)));
+    let [s, m, l] = sides.map(square);
+    let half = 0.5 * l.sqrt() * largest;
+    if s + m <= l || s <= l * f64::powi(0.5, 60) {
+        return half;
+    }
+    let [e, f, _] = sides;
     let normal = [1, 2, 0].map(|i| {
         let j = (i + 1) % 3;
         e[i] * f[j] - e[j] * f[i]
     });
-    let twice_area = square(normal).sqrt();
-    0.5 * (s / twice_area) * m.sqrt() * (l / s).sqrt()
+    half * ((s * m) / square(normal)).sqrt()
 }
 
 #[cfg(test)]
@@ -155,5 +167,21 @@ mod tests {
         assert_eq!(radius([8.0, 0.0, 0.0], [1.0, 0.5, 0.0]), 4.0);
         assert_eq!(radius([8.0, 0.0, 0.0], [4.0, 0.0, 0.0]), 4.0);
         assert_eq!(radius([0.0; 3], [0.0; 3]), 0.0);
+        // Acute needles, and triangles of any size.
+        for w in [1e-3, 1e-6, 1e-9, 1e-12] {
+            let found = radius([w, 0.0, 0.0], [w / 2.0, 1.0, 0.0]);
+            let exact = 0.5 + w * w / 8.0;
+            assert!((found - exact).abs() <= 1e-13, "{w} {found}");
+        }
+        for scale in [1e-300, 1e-170, 1e-80, 1e30] {
+            let found = radius(
+                [2.0 * scale, 0.0, 0.0],
+                [scale, 3.0_f64.sqrt() * scale, 0.0],
+            );
+            assert!(
+                (found / scale - 2.0 / 3.0_f64.sqrt()).abs() < 1e-12,
+                "{scale}"
+            );
+        }
     }
 }

@@ -64,10 +64,10 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody); [`NotClosed`](crate::ErrorKind::NotClosed) with
-    /// some edges, for a body that is not closed as [`Watertight::is_closed`] says, or with
-    /// [`Parity`](InsideRule::Parity) [`is_even`](Watertight::is_even);
-    /// [`BadPoint`](crate::ErrorKind::BadPoint).
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`BadPoint`](crate::ErrorKind::BadPoint).
+    /// [`NotClosed`](crate::ErrorKind::NotClosed), with some edges, for a body of which
+    /// [`is_closed`](Watertight::is_closed) is false; with the rule of parity
+    /// [`is_even`](Watertight::is_even).
     #[doc(alias = "contains")]
     #[doc(alias = "occupancy")]
     #[doc(alias = "winding_number")]
@@ -82,8 +82,8 @@ impl<S: Scalar> World<S> {
 
     /// Says of each vertex of a body whether it is inside another, a closed one: shape (n,).
     ///
-    /// As [`points_inside`](Self::points_inside) says it of their positions. Vertex numbers that are
-    /// empty are outside.
+    /// As [`points_inside`](Self::points_inside) says it of their positions. Vertex numbers that
+    /// are empty are outside.
     ///
     /// # Errors
     ///
@@ -138,10 +138,12 @@ impl<S: Scalar> World<S> {
         rule: InsideRule,
         question: Option<Question>,
     ) -> Result<Vec<Located>, Error> {
-        self.check_closed(b, rule)?;
         if a == b {
-            return Err(ErrorKind::SameBody.of_query());
+            let (body, kind) = (Some(a), ErrorKind::SameBody);
+            return Err(Error { body, kind });
         }
+        self.state().body(a)?;
+        self.check_closed(b, rule)?;
         let body = self.state().body(a)?;
         // Neighbours in this order are neighbours in space.
         let mesh = body.mesh();
@@ -154,10 +156,25 @@ impl<S: Scalar> World<S> {
             .collect();
         let points: Vec<[S; 3]> = order.iter().map(|&it| positions[it as usize]).collect();
         let mut located = vec![Located::default(); positions.len()];
-        let windings = self.verbs.windings(b, &points, question)?;
+        let windings = self.verbs.windings(b, &points, question);
+        let windings = windings.map_err(|error| of_vertex(error, a, &order))?;
         for (vertex, winding) in order.into_iter().zip(windings) {
             located[vertex as usize] = winding.located(rule);
         }
         Ok(located)
+    }
+}
+
+/// The error of a question about vertices of a body, given the one about points: one of these is
+/// lost by this thread, since the body has it.
+pub(super) fn of_vertex(error: Error, body: BodyId, vertices: &[u32]) -> Error {
+    match error.kind {
+        ErrorKind::BadPoint { point, .. } => Error {
+            body: Some(body),
+            kind: ErrorKind::NeedsSubnormals {
+                vertex: vertices[point] as usize,
+            },
+        },
+        _ => error,
     }
 }

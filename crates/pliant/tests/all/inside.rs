@@ -5,7 +5,8 @@
 
 use crate::common::{Lcg, covering_configurations, share};
 use pliant::{
-    BodyId, Contained, Feature, InsideRule, Located, Options, Scalar, Selection, Side, World,
+    BodyId, ContactKind, Contained, Curves, ErrorKind, Feature, InsideRule, Located, Options,
+    Scalar, Selection, Side, World,
 };
 use pliant_exact::distance::nearest_triangle;
 use pliant_oracle::{compare_distance, winding_number};
@@ -506,4 +507,106 @@ fn components_are_told_apart() {
             inside: large
         }]
     );
+}
+
+/// The clash of two bodies, by the table of the guide.
+fn clash(a: &Mesh<f64>, b: &Mesh<f64>, clearance: f64) -> &'static str {
+    let mut world = World::<f64>::new();
+    let [a, b] = [a, b].map(|(triangles, positions)| world.add(triangles, positions).unwrap());
+    let mut are_all_on = |a: BodyId, b: BodyId| {
+        let sides = world.inside(a, b, InsideRule::NonZero).unwrap();
+        sides.iter().all(|it| it.side == Side::On)
+    };
+    let between = Selection::Between(a, b);
+    if are_all_on(a, b) && are_all_on(b, a) {
+        return "duplication";
+    }
+    if !world.contained(between).unwrap().all.is_empty() {
+        return "envelope";
+    }
+    let contacts = world.contacts(between).all().unwrap().to_vec();
+    if contacts.iter().any(|it| it.kind == ContactKind::Crossing) {
+        let mut curves = Curves::new();
+        curves.update(&world, &contacts).unwrap();
+        let closed = curves.iter().filter(|curve| curve.is_closed()).count();
+        return if closed > 1 { "piercing" } else { "protrusion" };
+    }
+    if !contacts.is_empty() {
+        return "touching";
+    }
+    match world.distance(a, b, clearance).unwrap() {
+        Some(_) => "encroaching",
+        None => "none",
+    }
+}
+
+#[test]
+fn the_six_clashes_follow_from_the_questions() {
+    let large = grid_box(2, [0.0; 3], [4.0; 3]);
+    for (lo, hi, expected) in [
+        ([3.1, 3.2, 3.3], [5.0, 5.0, 5.0], "protrusion"),
+        ([1.0, 1.0, 1.0], [2.0, 2.0, 2.0], "envelope"),
+        ([-1.0, 1.1, 1.2], [5.0, 1.7, 1.8], "piercing"),
+        ([4.0, 1.0, 1.0], [5.0, 2.0, 2.0], "touching"),
+        ([4.2, 1.0, 1.0], [5.0, 2.0, 2.0], "encroaching"),
+        ([0.0, 0.0, 0.0], [4.0, 4.0, 4.0], "duplication"),
+        ([4.5, 1.0, 1.0], [5.0, 2.0, 2.0], "none"),
+    ] {
+        let other = grid_box(1, lo, hi);
+        assert_eq!(clash(&large, &other, 0.25), expected, "{lo:?} {hi:?}");
+        assert_eq!(clash(&other, &large, 0.25), expected, "{lo:?} {hi:?}");
+    }
+}
+
+#[test]
+fn what_has_no_inside_is_refused_by_name() {
+    let mut world = World::<f32>::new();
+    let corners = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+    ];
+    let closed = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    let good = world.add(&closed, &corners).unwrap();
+    let open = world.add(&closed[..3], &corners).unwrap();
+    let turned = world
+        .add(&[closed[0], [1, 0, 3], closed[2], closed[3]], &corners)
+        .unwrap();
+    let ask = |world: &mut World<f32>, body: BodyId, rule: InsideRule, point: [f32; 3]| {
+        world
+            .points_inside(&[[0.1; 3], point], body, rule)
+            .map_err(|it| (it.body, it.kind))
+    };
+    let (non_zero, parity) = (InsideRule::NonZero, InsideRule::Parity);
+    let not_closed = |edges: &[[u32; 2]]| ErrorKind::NotClosed {
+        edges: edges.to_vec(),
+        count: edges.len(),
+    };
+    let found = ask(&mut world, open, non_zero, [0.0; 3]).unwrap_err();
+    assert_eq!(found, (Some(open), not_closed(&[[0, 2], [0, 3], [2, 3]])));
+    assert_eq!(
+        ask(&mut world, open, parity, [0.0; 3]).unwrap_err().0,
+        Some(open)
+    );
+    let found = ask(&mut world, turned, non_zero, [0.0; 3]).unwrap_err();
+    assert_eq!(found, (Some(turned), not_closed(&[[0, 1], [0, 3], [1, 3]])));
+    let found = ask(&mut world, turned, parity, [5.0; 3]).unwrap();
+    let sides: Vec<Side> = found.iter().map(|it| it.side).collect();
+    assert_eq!(sides, [Side::Inside, Side::Outside]);
+    let bad = ask(&mut world, good, non_zero, [0.0, f32::NAN, 0.0]).unwrap_err();
+    assert!(matches!(bad, (None, ErrorKind::BadPoint { point: 1, .. })));
+    let same = world.inside(good, good, non_zero).unwrap_err();
+    assert_eq!((same.body, same.kind), (Some(good), ErrorKind::SameBody));
+    world.remove(good).unwrap();
+    let gone = ask(&mut world, good, non_zero, [0.0; 3]).unwrap_err();
+    assert_eq!(gone, (Some(good), ErrorKind::NoSuchBody));
+    for cut_off in [-1.0, f64::NAN] {
+        let refused = world
+            .closest_points(&[[0.0; 3]], None, cut_off)
+            .unwrap_err();
+        assert!(matches!(refused.kind, ErrorKind::BadDistance { .. }));
+    }
+    // Nothing is asked, and nothing answered.
+    assert_eq!(world.closest_points(&[], Some(open), 1.0).unwrap(), []);
 }

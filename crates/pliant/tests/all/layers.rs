@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A folder, or a file of the crate's root, and the folders that it may use.
-const LAYERS: [(&str, &[&str]); 28] = [
+const LAYERS: [(&str, &[&str]); 29] = [
     ("held", &[]),
     ("ids", &[]),
     ("options", &[]),
@@ -123,6 +123,24 @@ const LAYERS: [(&str, &[&str]); 28] = [
         &["bodies", "error", "geometry", "labels", "mesh"],
     ),
     (
+        "points",
+        &[
+            "held",
+            "ids",
+            "statistics",
+            "error",
+            "geometry",
+            "kernels",
+            "threads",
+            "tree",
+            "update",
+            "queries",
+            "traversal",
+            "bodies",
+            "collide",
+        ],
+    ),
+    (
         "world",
         &[
             "labels",
@@ -142,6 +160,7 @@ const LAYERS: [(&str, &[&str]); 28] = [
             "traversal",
             "bodies",
             "collide",
+            "points",
             "all_pairs",
         ],
     ),

@@ -14,6 +14,8 @@ pub(super) trait Form {
     fn interval(&mut self, _: &mut dyn Write, _: &Check, _: &Interval) -> io::Result<()> {
         Ok(())
     }
+    /// Whether the format has room for what lies inside bodies.
+    fn says_inside(&self) -> bool;
     /// Writes the end of a check that was completed, or that stopped with an error.
     fn end(
         &mut self,

@@ -26,7 +26,7 @@
 //! | `bodies` | each body: [`Entry`], or with `split` [`PieceEntry`] |
 //! | `sources` | files, or bodies of glTF files, where bodies are pieces or groups: [`Entry`] |
 //! | `split`, `ignore`, `baseline`, `within`, `rest` | what was asked, if it was |
-//! | `crossing`, `swept`, `skip_degenerate`, `ignore_adjacent` | what was asked, if it was |
+//! | `crossing`, `swept`, `solid`, `skip_degenerate`, `ignore_adjacent` | what was asked, if it was |
 //! | `groups` | numbers of bodies by name of the group, if it was asked |
 //! | `labels` | files of labels by name of the body, if there were any |
 //! | `frames` | [`FrameEntry`] each; with `swept` an [`IntervalEntry`] between two |
@@ -39,7 +39,7 @@ use crate::check::arguments::{Arguments, Split};
 use crate::check::names::Names;
 use pliant_check::{
     Adjacent, Baseline, Check, CrossingEdges, FirstImpact, Found, Group, Impact, Interval, Kinds,
-    LabelFile, Life, Place, Rest,
+    LabelFile, Life, Nested, Place, Rest,
 };
 use pliant_io::Body as Source;
 use serde::Serialize;
@@ -60,6 +60,7 @@ pub(super) struct Json {
     labels: Vec<LabelFile>,
     crossing: bool,
     swept: bool,
+    solid: bool,
     has_frames: bool,
     lists_places: bool,
 }
@@ -184,6 +185,13 @@ struct FrameEntry<'a> {
     /// and `--within`.
     #[serde(skip_serializing_if = "Option::is_none")]
     crossing_edges: Option<Vec<(u32, u32, usize, usize)>>,
+    /// Components that lie inside bodies: body, component, body around it. The component is numbered
+    /// by the lowest of its triangles, from 0. Absent with one body.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    inside: Option<Vec<[u32; 3]>>,
+    /// Bodies that are not closed, so that nothing is said to lie inside them.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    not_closed: &'a [u32],
     #[serde(skip_serializing_if = "Option::is_none")]
     places: Option<Vec<PlaceEntry>>,
 }
@@ -308,6 +316,10 @@ struct PlaceEntry {
     number: usize,
     /// Number of pairs, those that share a vertex too.
     count: usize,
+    /// With `--solid`: how far the deepest vertex of the place is inside the other body, linked with
+    /// it by vertices inside; 0 if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    depth: Option<f64>,
     #[serde(flatten)]
     location: Location,
 }
@@ -323,6 +335,9 @@ struct LifeEntry {
     most_pairs: usize,
     /// The frame that has them.
     most_in: usize,
+    /// Its depth there, as in the frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    depth: Option<f64>,
     #[serde(flatten)]
     location: Location,
 }
@@ -368,6 +383,7 @@ impl PlaceEntry {
         Self {
             number: place.number,
             count: place.count,
+            depth: place.depth,
             location: Location::of(place),
         }
     }
@@ -380,6 +396,7 @@ impl LifeEntry {
             frames: [life.first_frame, life.last_frame],
             most_pairs: life.worst.count,
             most_in: life.worst_frame,
+            depth: life.worst.depth,
             location: Location::of(&life.worst),
         }
     }
@@ -408,6 +425,7 @@ impl Json {
             labels: arguments.labels.clone(),
             crossing: arguments.crossing,
             swept: arguments.swept,
+            solid: arguments.solid,
             has_frames: false,
             lists_places: !arguments.count && !arguments.first,
         }
@@ -496,7 +514,14 @@ impl Form for Json {
         if self.swept {
             write!(out, r#","swept":true"#)?;
         }
+        if self.solid {
+            write!(out, r#","solid":true"#)?;
+        }
         write!(out, r#","frames":["#)
+    }
+
+    fn says_inside(&self) -> bool {
+        true
     }
 
     fn frame(&mut self, out: &mut dyn Write, check: &Check, found: &Found) -> io::Result<()> {
@@ -524,6 +549,11 @@ impl Form for Json {
                 counts.iter().map(row).collect()
             }),
             of_adjacent: adjacent.map(|it| AdjacentEntry::of(it, self.count_only)),
+            inside: found.inside.as_ref().map(|inside| {
+                let row = |it: &Nested| [it.body, it.component, it.inside];
+                inside.all.iter().map(row).collect()
+            }),
+            not_closed: found.inside.as_ref().map_or(&[], |inside| &inside.open),
             places: places.map(|places| places.iter().map(PlaceEntry::of).collect()),
         };
         let separator = if self.has_frames { "," } else { "" };

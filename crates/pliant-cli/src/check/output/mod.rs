@@ -3,6 +3,7 @@
 mod files;
 mod form;
 mod github;
+mod inside;
 mod json;
 mod lines;
 mod places;
@@ -28,6 +29,8 @@ pub(super) struct Output {
     /// `None` where nothing is printed.
     form: Option<Box<dyn Form>>,
     tally: Tally,
+    /// Whether bodies are solids, so that nothing may lie inside another.
+    solid: bool,
 }
 
 impl Output {
@@ -46,6 +49,7 @@ impl Output {
                 within: arguments.within,
                 ..Tally::default()
             },
+            solid: arguments.solid,
         };
         output.print(|form, out, _| form.head(out, check))?;
         Ok(output)
@@ -85,6 +89,14 @@ impl Output {
         });
         // If both failed, the error that stopped the check comes first.
         checked.and(printed)?;
+        if let Some(form) = &self.form
+            && !form.says_inside()
+        {
+            let lines = self.tally.inside.lines(check);
+            lines
+                .iter()
+                .for_each(|line| complain(&format!("note: {line}")));
+        }
         let [_, meeting] = self.tally.intervals;
         if let (Some(([frame, until], count)), Some(_)) = (self.tally.skipped, &self.form) {
             let count = counted((count, "interval", "intervals"));
@@ -93,11 +105,14 @@ impl Output {
                  the first from frame {frame} to {until}"
             ));
         }
-        Ok(if self.tally.intersecting > 0 || meeting > 0 {
-            Outcome::Intersects
-        } else {
-            Outcome::Clear
-        })
+        let is_solid_inside = self.solid && self.tally.inside.is_any();
+        Ok(
+            if self.tally.intersecting > 0 || meeting > 0 || is_solid_inside {
+                Outcome::Intersects
+            } else {
+                Outcome::Clear
+            },
+        )
     }
 
     fn print(

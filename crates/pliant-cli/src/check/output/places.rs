@@ -52,8 +52,12 @@ pub(super) fn lies(check: &Check, place: &Place) -> String {
         0 => String::new(),
         more => format!(" and of {}", counted((more, "more body", "more bodies"))),
     };
+    let depth = match place.depth {
+        Some(depth) if depth > 0.0 => format!(", {} deep", short(depth)),
+        _ => String::new(),
+    };
     format!(
-        "{size} across, round ({x}, {y}, {z}); {}{more}",
+        "{size} across{depth}, round ({x}, {y}, {z}); {}{more}",
         named.join(", ")
     )
 }

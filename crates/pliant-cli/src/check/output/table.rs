@@ -170,6 +170,10 @@ impl Form for Table {
         )
     }
 
+    fn says_inside(&self) -> bool {
+        true
+    }
+
     fn frame(&mut self, out: &mut dyn Write, check: &Check, found: &Found) -> io::Result<()> {
         let &Found { frame, count, .. } = found;
         for &number in &found.changed {
@@ -268,6 +272,9 @@ impl Form for Table {
         match error {
             None => {
                 writeln!(out, "\n{}", tally.summary())?;
+                for line in tally.inside.lines(check) {
+                    writeln!(out, "{line}")?;
+                }
                 if let Some(swept) = tally.swept() {
                     writeln!(out, "{swept}")?;
                 }

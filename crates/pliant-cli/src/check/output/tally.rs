@@ -1,5 +1,6 @@
 //! Totals over all frames of a check, and the lines that say them.
 
+use super::inside::InsideTally;
 use crate::check::adjacent::AdjacentTally;
 use crate::check::figures::counted;
 use crate::table::{grouped, short};
@@ -22,6 +23,8 @@ pub(super) struct Tally {
     pub(super) only_touching: usize,
     /// Pairs that share a vertex.
     pub(super) adjacent: AdjacentTally,
+    /// What lies inside bodies.
+    pub(super) inside: InsideTally,
     /// Number of pairs with a triangle without area, counted or left out.
     pub(super) degenerate: usize,
     /// Number of intervals between frames that were searched, and of those with a contact.
@@ -39,6 +42,7 @@ impl Tally {
             self.only_touching += adjacent.only_touching.unwrap_or(0);
         }
         self.adjacent.count(found);
+        self.inside.count(found);
         self.degenerate += found.degenerate;
         self.only_touching += found.only_touching.unwrap_or(0);
         self.kinds += found.kinds.unwrap_or_default();

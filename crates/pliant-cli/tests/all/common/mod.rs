@@ -24,7 +24,8 @@ impl Said {
             .unwrap_or_else(|error| panic!("{error}: {}{}", self.out, self.err))
     }
 
-    /// Standard output as JSON, without places and boxes of bodies, which have tests of their own.
+    /// Standard output as JSON, without places, boxes of bodies, and what lies inside, which have
+    /// tests of their own.
     pub(crate) fn json_without_places(&self) -> Value {
         let mut json = self.json();
         let members = json.as_object_mut().unwrap();
@@ -36,7 +37,10 @@ impl Said {
         }
         let has_places = members.remove("places").is_some();
         for frame in members["frames"].as_array_mut().unwrap() {
-            let places = frame.as_object_mut().unwrap().remove("places");
+            let frame = frame.as_object_mut().unwrap();
+            frame.remove("inside");
+            frame.remove("not_closed");
+            let places = frame.remove("places");
             assert_eq!(places.is_some(), has_places, "{}", self.out);
         }
         json

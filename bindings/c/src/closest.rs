@@ -169,7 +169,7 @@ calls! {
     }
 }
 
-/// Asks a world of a precision for the points closest to those of the caller.
+/// Asks a world of a precision for the points that are closest to the caller's.
 fn closest_points<S: Number>(
     world: &mut World<S>,
     at: &PliantPoints,

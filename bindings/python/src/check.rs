@@ -167,8 +167,8 @@ impl Name {
 ///   leaves any out. Not with within or first
 /// - places: joins the pairs of a frame into places with numbers that last: Frame.places,
 ///   Check.places. Not with first
-/// - solid: takes closed bodies for solids: Place.depth. What lies inside a body, which no pair tells,
-///   is said in any case: Frame.inside, Frame.not_closed
+/// - solid: takes closed bodies for solids: Place.depth. What lies inside a body, which no pair
+///   tells, is said in any case: Frame.inside, Frame.not_closed
 ///
 /// How files are read:
 ///

@@ -255,7 +255,7 @@ def test_points() -> None:
     world_is_stopped(world, lambda: world.closest_points(points))
     world.validate()
     assert world.points_inside(points[:2], 0).windings.tolist() == [count] * 2
-    assert (world.closest_points(points[:2]).distances == points[:2].min(axis=1)).all()
+    assert (world.closest_points(points[:2]).distance == points[:2].min(axis=1)).all()
 
 
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="signals that come again and again are not there")

@@ -42,8 +42,8 @@ pub struct Found {
     /// [`crossing_edges`](crate::Settings::crossing_edges) is not set, or only the first pair was
     /// asked for.
     pub crossing_edges: Option<Vec<CrossingEdges>>,
-    /// Components of bodies that lie inside other bodies. `None` if [`inside`](crate::Settings::inside)
-    /// is not set, or there is one body.
+    /// Components of bodies that lie inside other bodies. `None` if
+    /// [`inside`](crate::Settings::inside) is not set, or there is one body.
     pub inside: Option<Inside>,
     /// Number of pairs left out because the baseline has them. `None` without a baseline, or if the
     /// search stopped at the first new pair.

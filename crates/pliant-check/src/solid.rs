@@ -1,9 +1,8 @@
 //! Closed bodies as solids: which components lie inside others, and how deep places are.
 //!
 //! A source is one body of the world. Pieces and groups of sources, which are not, get a world of
-//! their own for this, of the same triangles in double precision. The depth of a place is that of
-//! the deepest vertex that is inside the other body, and is linked with the place by edges between
-//! vertices inside.
+//! their own for this, of the same triangles in double precision. A place is as deep as the
+//! deepest vertex inside the other body that edges between vertices inside link with it.
 
 use crate::any_world::AnyWorld;
 use crate::bodies::Bodies;
@@ -12,7 +11,7 @@ use crate::places::{Place, Places};
 use crate::sequence::Sequence;
 use crate::union_find::{find, join};
 use crate::with_world;
-use pliant::{BodyId, Contained, Error, Selection, World};
+use pliant::{BodyId, Contained, Error, Selection, Watertight, World};
 use pliant_io::Body as Source;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,7 +20,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Nested {
     /// Body with the component.
     pub body: u32,
-    /// The component: [`pliant::World::components`] numbers those of the body.
+    /// The component, as [`pliant::World::components`] numbers it.
     pub component: u32,
     /// How many components the body has.
     pub of: u32,
@@ -44,16 +43,20 @@ type Question<'q> = Option<&'q (dyn Fn() -> bool + Sync)>;
 /// World of pieces and groups.
 pub(crate) struct PieceWorld {
     world: World<f64>,
+    /// Body of the world for each body; empty if none of them is closed.
     ids: Vec<BodyId>,
     /// Source and vertices of each body.
     vertices: Vec<(usize, Vec<u32>)>,
+    /// Bodies that are not closed.
+    open: Vec<u32>,
 }
 
 impl PieceWorld {
-    /// Of the bodies that sources are split into, whose meshes stay.
+    /// Makes the world of the bodies that sources are split into, whose meshes stay.
     fn new(sources: &[Source], bodies: &Bodies) -> Result<Self, Error> {
         let mut world = World::new();
-        let (mut ids, mut vertices) = (Vec::new(), Vec::new());
+        let (mut ids, mut vertices, mut are_closed) = (Vec::new(), Vec::new(), Vec::new());
+        let mut meshes = Vec::new();
         for (number, source) in sources.iter().enumerate() {
             let first = bodies.of_source(number).start;
             let mut triangles = vec![Vec::new(); bodies.of_source(number).len()];
@@ -62,21 +65,31 @@ impl PieceWorld {
                     triangles[(body - first) as usize].push(corners);
                 }
             }
-            for mut triangles in triangles {
+            for triangles in triangles {
+                are_closed.push(Watertight::of(&triangles).is_closed());
+                meshes.push((number, triangles));
+            }
+        }
+        // Nothing can lie inside what is open, and open bodies may be very many.
+        if are_closed.contains(&true) {
+            for (number, mut triangles) in meshes {
                 let mut own: Vec<u32> = triangles.as_flattened().to_vec();
                 own.sort_unstable();
                 own.dedup();
                 let place = |vertex: u32| own.partition_point(|&it| it < vertex) as u32;
-                triangles.iter_mut().for_each(|it| *it = it.map(place));
-                let positions = positions_of(source, &own);
-                ids.push(world.add(&triangles, &positions)?);
+                for corners in &mut triangles {
+                    *corners = corners.map(place);
+                }
+                ids.push(world.add(&triangles, &positions_of(&sources[number], &own))?);
                 vertices.push((number, own));
             }
         }
+        let open = (0..).zip(&are_closed).filter(|(_, is)| !**is);
         Ok(Self {
             world,
             ids,
             vertices,
+            open: open.map(|(body, _)| body).collect(),
         })
     }
 
@@ -104,7 +117,8 @@ pub(crate) fn inside(
     pieces: &mut Option<PieceWorld>,
     stop: Question,
 ) -> Result<Inside, Error> {
-    let (found, ids) = if bodies.are_split() {
+    let number = |ids: &[BodyId], id: BodyId| ids.partition_point(|&it| it < id) as u32;
+    let (all, open, ids) = if bodies.are_split() {
         let pieces = match pieces {
             Some(known) => {
                 known.go_to(&sequence.sources)?;
@@ -112,28 +126,24 @@ pub(crate) fn inside(
             }
             None => pieces.insert(PieceWorld::new(&sequence.sources, bodies)?),
         };
-        (contained(&mut pieces.world, stop)?, &pieces.ids)
+        let (all, _) = contained(&mut pieces.world, stop)?;
+        (all, pieces.open.clone(), &pieces.ids)
     } else {
-        let world = &mut sequence.world;
-        (
-            with_world!(world, world => contained(world, stop))?,
-            &sequence.ids,
-        )
+        let Sequence { world, ids, .. } = sequence;
+        let (all, open) = with_world!(world, world => contained(world, stop))?;
+        let open = open.into_iter().map(|id| number(ids, id));
+        (all, open.collect(), &*ids)
     };
-    let (all, open) = found;
-    let number = |id: BodyId| ids.partition_point(|&it| it < id) as u32;
     let nested = all.into_iter().map(|(it, of)| Nested {
-        body: number(it.body),
+        body: number(ids, it.body),
         component: it.component,
         of,
-        inside: number(it.inside),
+        inside: number(ids, it.inside),
     });
-    Ok(Inside {
-        all: nested
-            .filter(|it| filter.meet(it.body, it.inside))
-            .collect(),
-        open: open.into_iter().map(number).collect(),
-    })
+    let all = nested
+        .filter(|it| filter.meet(it.body, it.inside))
+        .collect();
+    Ok(Inside { all, open })
 }
 
 /// Components inside bodies, each with the number of components of its body; and open bodies.

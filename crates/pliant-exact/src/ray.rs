@@ -2,9 +2,9 @@
 //!
 //! The number of times that a closed surface winds round a point is how often a ray from it leaves,
 //! less how often it enters. Seen along the ray, triangles are a mesh in the plane, and the point
-//! lies in some of them. Where it lies on their borders, it is moved aside by less than any number,
-//! first along one axis and by much less along the other (Edelsbrunner and Mücke 1990, *Simulation
-//! of Simplicity*). So it lies on no border, triangles that are seen edge on hold it nowhere, and
+//! lies in some of them. Where it lies on their borders, it is moved aside by less than any number:
+//! along one axis, and by much less along the other (Edelsbrunner and Mücke 1990, *Simulation of
+//! Simplicity*). So it lies on no border, triangles that are seen edge on hold it nowhere, and
 //! every edge keeps one side for both its triangles. In space the point stays where it is, and
 //! whether a triangle has it is decided before.
 
@@ -22,7 +22,7 @@ pub struct Axis {
     pub ascends: bool,
 }
 
-/// What a ray does to a closed triangle.
+/// Crossing of a ray and a closed triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Crossing {
     /// Passes it by.
@@ -35,7 +35,7 @@ pub enum Crossing {
     Begins,
 }
 
-/// What the ray from a point along an axis does to a triangle.
+/// Crossing of the ray from a point along an axis and a triangle.
 ///
 /// Exact, for coordinates that are [in range](crate::is_in_range). A degenerate triangle is the
 /// segment or point that it is: a ray begins on it or misses it. Over a closed surface, leaves less
@@ -90,8 +90,8 @@ pub fn crossing(precision: Precision, axis: Axis, point: &Point, triangle: &Tria
     }
 }
 
-/// The side of the line from a to b on which a point of it lies, once it is moved along the first
-/// axis, and by much less along the second. Zero if a is b.
+/// The side of the line from a to b on which a point of it lies, once it is moved. It moves along
+/// the first axis, and by much less along the second. Zero if a is b.
 ///
 /// Both are compared as they are: a difference might be flushed to zero.
 fn side_when_moved(a: Point2, b: Point2) -> i8 {

@@ -16,7 +16,7 @@ fn told<T>(ask: impl FnOnce(*mut T) -> i32) -> Result<T, i32> {
     }
 }
 
-/// What Rust answers, unless C has refused with a status of its errors, and Rust has, too.
+/// Answer of Rust, unless C has refused with a status of its errors, and Rust has, too.
 fn expected<T>(rust: Result<T, Error>, refused: Option<i32>) -> Option<T> {
     let is_for_errors = refused.is_none_or(|status| [13, 29].contains(&status));
     assert!(is_for_errors && rust.is_err() == refused.is_some());
@@ -71,7 +71,7 @@ fn check_closest(c: Result<PliantClosest, i32>, rust: Result<Vec<Option<ClosestP
     }
 }
 
-/// What a selection contains, and all bodies by themselves.
+/// Contents of a selection, and all bodies by themselves.
 pub(crate) fn compare<S: Scalar>(c: *mut PliantWorld, rust: &mut World<S>, of: Selection) {
     let query = PliantQuery {
         of: numbers(of),

@@ -77,7 +77,7 @@ fn one_when_something_intersects() {
     assert_eq!(
         count.json()["frames"],
         json!([{"frame": 0, "count": 2, "kinds": kinds([1, 1, 0]),
-            "crossing_edges": [[1, 0, 2, 2]]}])
+            "crossing_edges": [[1, 0, 2, 2]], "inside": [], "not_closed": [0, 1]}])
     );
     assert_eq!(count.code, 1);
 
@@ -93,7 +93,8 @@ fn one_when_something_intersects() {
         (none.code, &none.json()["frames"]),
         (
             0,
-            &json!([{"frame": 0, "count": 0, "complete": false, "pairs": []}])
+            &json!([{"frame": 0, "count": 0, "complete": false, "pairs": [], "inside": [],
+            "not_closed": [0, 1]}])
         )
     );
 

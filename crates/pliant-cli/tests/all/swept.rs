@@ -41,7 +41,9 @@ fn frames(said: &Said) -> Value {
     let mut json = said.json();
     let frames = json["frames"].as_array_mut().unwrap();
     for frame in frames.iter_mut() {
-        frame.as_object_mut().unwrap().remove("places");
+        for member in ["places", "inside", "not_closed"] {
+            frame.as_object_mut().unwrap().remove(member);
+        }
     }
     json["frames"].take()
 }

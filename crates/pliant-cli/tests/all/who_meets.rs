@@ -140,7 +140,7 @@ fn a_shell_of_single_triangles_is_no_danger() {
     assert_eq!(split.said.code, 1, "{}", split.said.err);
     let head = format!("bodies 0 to {count}: shell.obj#1 to #{}, ", count + 1);
     assert!(split.said.out.contains(&head), "{}", split.said.out);
-    assert_eq!(split.said.out.lines().count(), 7, "{}", split.said.out);
+    assert_eq!(split.said.out.lines().count(), 8, "{}", split.said.out);
     let named = ["--ignore", "shell.obj,shell.obj"];
     let ignored = check(
         path,

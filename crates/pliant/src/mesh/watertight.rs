@@ -32,8 +32,8 @@ impl Watertight {
         self.open.is_empty()
     }
 
-    /// Looks at all edges. O(m log m).
-    pub(crate) fn of(triangles: &[[u32; 3]]) -> Self {
+    /// Looks at all edges of triangles, by their vertices. O(m log m).
+    pub fn of(triangles: &[[u32; 3]]) -> Self {
         let live = triangles.iter().filter(|&&corners| corners != EMPTY);
         let sides = live.flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
         let mut ways: Vec<(u64, i32)> = sides

@@ -18,7 +18,7 @@ pub(crate) struct Nearest {
     /// Upper bound of the distance up to which triangles count.
     pub(crate) limit: f64,
     pub(crate) found: Option<Found>,
-    /// What was found the last time, if it was asked.
+    /// Triangle that was found the last time, if it was asked.
     pub(crate) hint: Option<Hint>,
 }
 

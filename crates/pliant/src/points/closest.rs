@@ -13,8 +13,8 @@ use pliant_exact::distance::{Closest, Primitives, are_within_distance, closest_f
 /// The point of a body that is closest to a point of the caller, and the triangle that has it.
 ///
 /// The triangle is exactly the nearest, and of equally near ones the first, by body and number. The
-/// distance is off by at most 2^-30 of itself and 2^-1074, the smallest number; it is 0 exactly if
-/// the point is on the surface. Points and direction are as good as those of
+/// distance is off by at most 2^-30 of itself and 2^-1074, the smallest number. It is 0 exactly if
+/// the point is on the surface. Points and direction are as good as in
 /// [`CloseTriangles`](crate::CloseTriangles).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosestPoint {

@@ -1,7 +1,7 @@
 //! Hints: the triangles that were nearest to points the last time, and are measured first.
 //!
 //! They bound distances from above, and decide nothing: with any hint the answer is the same. Each
-//! body has those of its last question. They are of use if the next one has as many points.
+//! body has the hints of its last question. They are of use if the next one has as many points.
 
 use super::candidates::{Hint, Nearest};
 use crate::held::{self, Held};

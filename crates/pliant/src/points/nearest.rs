@@ -1,8 +1,8 @@
 //! The triangle of a body that is nearest to each point, exactly, and where.
 //!
-//! A leaf near a packet bounds the distance of its points from above. All triangles whose boxes are
-//! within that distance are then bounded from both sides: eight at a time in single precision, and
-//! what is left in double. Whatever may still be the nearest is compared exactly
+//! A hint, or a leaf near a point, bounds its distance from above. All triangles whose boxes are
+//! within that distance are then bounded from both sides: in single precision, and what is left in
+//! double. Whatever may still be the nearest is compared exactly
 //! (`pliant_exact::distance::nearest_triangle`). So the answer does not depend on the tree. Larsen,
 //! Gottschalk, Lin and Manocha (2000) descend for each point alone, the nearest box first.
 

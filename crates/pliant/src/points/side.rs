@@ -4,8 +4,8 @@ use super::winding::Winding;
 
 /// Rule by which a winding number says inside or outside.
 ///
-/// How often a closed surface winds round a point is an integer: 1 inside a body whose triangles
-/// are turned outward, 2 where it overlaps itself, -1 where it is turned inside out.
+/// How often a closed surface winds round a point is an integer. It is 1 inside a body whose
+/// triangles are turned outward, 2 where it overlaps itself, -1 where it is turned inside out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum InsideRule {
     /// Inside is where the winding number is not 0.

@@ -18,7 +18,7 @@ use pliant_exact::{Axis, Crossing, crossing};
 use std::ops::ControlFlow;
 use std::sync::atomic::AtomicU64;
 
-/// What all triangles of a body do to the ray from a point.
+/// Sum of all that the triangles of a body do to the ray from a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Winding {
     /// Whether the point is on the surface.

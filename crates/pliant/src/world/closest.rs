@@ -11,13 +11,14 @@ use crate::threads::Question;
 impl<S: Scalar> World<S> {
     /// Finds the closest point of a body, or of all bodies, for each of some points: shape (k,).
     ///
-    /// None for points that are further than `cut_off` from it, a length in the unit of the
-    /// positions that may be infinite; this is decided exactly. Distances are at least 0, and
+    /// None for points that are further from it than `cut_off`, which is decided exactly. That is a
+    /// length in the unit of the positions, and may be infinite. Distances are at least 0, and
     /// bodies need not be closed. [`ClosestPoint`] says how good they are. Filters and motions do
     /// not count.
     ///
-    /// Cost: refitting the body, in whole if points are many; and for each point the nodes and
-    /// triangles that are about as near as the nearest one.
+    /// Cost: refitting the body, in whole if points are many. For each point the nodes and
+    /// triangles that are about as near as the nearest one. Triangles that were nearest the last
+    /// time are measured first, if as many points were asked about.
     ///
     /// ```
     /// # use pliant::World;

@@ -37,8 +37,8 @@ pub struct Containment {
 impl<S: Scalar> World<S> {
     /// Finds the components of bodies that lie inside other bodies.
     ///
-    /// A component lies inside a closed body if none of its triangles crosses or overlaps the
-    /// body's, every vertex of it is inside or on the body, and one is inside. Inside is said by
+    /// A component lies inside a closed body under two conditions. None of its triangles crosses or
+    /// overlaps one of the body. Every vertex of it is inside or on the body, and one is inside. Inside is said by
     /// [`NonZero`](InsideRule::NonZero). Of a selection of all bodies these are the pairs that may
     /// meet, as filters say; of two bodies either in the other. A body is never
     /// inside itself, so of one body nothing is listed.
@@ -97,8 +97,18 @@ impl<S: Scalar> World<S> {
         boxes.sort_by(|a, b| lower(a).total_cmp(&lower(b)));
         let all = &self.state().common.bodies;
         let mut pairs = Vec::new();
+        let closed: Vec<usize> = (0..boxes.len()).filter(|&it| boxes[it].2).collect();
         for (place, (its_box, id, is_closed)) in boxes.iter().enumerate() {
-            let rest = boxes[place + 1..].iter();
+            // Of two open bodies none can be inside the other, and there may be very many.
+            let (every, next) = (
+                place + 1..boxes.len(),
+                closed.partition_point(|&it| it <= place),
+            );
+            let (every, closed) = match is_closed {
+                true => (every, &[][..]),
+                false => (0..0, &closed[next..]),
+            };
+            let rest = every.chain(closed.iter().copied()).map(|it| &boxes[it]);
             for (other, other_id, other_is_closed) in
                 rest.take_while(|it| it.0.lo[0] <= its_box.hi[0])
             {

@@ -39,11 +39,11 @@ impl<S: Scalar> World<S> {
     /// Says of points whether they are inside a closed body, outside, or on its surface: one answer
     /// for each, shape (k,).
     ///
-    /// Exact, for the points and the shape as given: no point is undecided, however near to the
-    /// surface, and on a vertex or an edge as anywhere. Right for bodies that cross themselves.
+    /// Exact, for the points and the shape as given. No point is undecided, however near it is to
+    /// the surface, on a vertex or an edge as anywhere. Right for bodies that cross themselves.
     /// Filters and motions do not count.
     ///
-    /// Cost: refitting the body, in whole if points are many; and for each point the nodes and
+    /// Cost: refitting the body, in whole if points are many. For each point the nodes and
     /// triangles on the way straight to the nearest side of the body's box.
     ///
     /// ```
@@ -165,8 +165,8 @@ impl<S: Scalar> World<S> {
     }
 }
 
-/// The error of a question about vertices of a body, given the one about points: one of these is
-/// lost by this thread, since the body has it.
+/// The error of a question about vertices of a body, given the one about points. The body has them,
+/// so one is lost by this thread.
 pub(super) fn of_vertex(error: Error, body: BodyId, vertices: &[u32]) -> Error {
     match error.kind {
         ErrorKind::BadPoint { point, .. } => Error {

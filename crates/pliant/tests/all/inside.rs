@@ -1,7 +1,7 @@
 //! Inside, closest points, depth and containment, against exact judges of other formulations.
 //!
-//! Surfaces have their vertices on coarse lattices, so that they cross and touch themselves, and
-//! points are on vertices, on edges, in walls and straight below them.
+//! Surfaces have their vertices on coarse lattices, so that they cross and touch themselves. Points
+//! are on vertices, on edges, in walls and straight below them.
 
 use crate::common::{Lcg, covering_configurations, share};
 use pliant::{

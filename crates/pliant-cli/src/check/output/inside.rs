@@ -1,4 +1,4 @@
-//! What lies inside bodies, over all frames of a check, and the lines that say it.
+//! Bodies inside bodies, over all frames of a check, and the lines that say it.
 
 use crate::check::figures::counted;
 use pliant_check::{Check, Found};
@@ -20,7 +20,7 @@ struct Of {
     frames: (usize, usize),
 }
 
-/// What lies inside, by the two bodies.
+/// Components inside bodies, by the two bodies.
 #[derive(Default)]
 pub(super) struct InsideTally {
     of: BTreeMap<[u32; 2], Of>,

@@ -26,7 +26,8 @@
 //! | `bodies` | each body: [`Entry`], or with `split` [`PieceEntry`] |
 //! | `sources` | files, or bodies of glTF files, where bodies are pieces or groups: [`Entry`] |
 //! | `split`, `ignore`, `baseline`, `within`, `rest` | what was asked, if it was |
-//! | `crossing`, `swept`, `solid`, `skip_degenerate`, `ignore_adjacent` | what was asked, if it was |
+//! | `crossing`, `swept`, `solid` | what was asked, if it was |
+//! | `skip_degenerate`, `ignore_adjacent` | what was asked, if it was |
 //! | `groups` | numbers of bodies by name of the group, if it was asked |
 //! | `labels` | files of labels by name of the body, if there were any |
 //! | `frames` | [`FrameEntry`] each; with `swept` an [`IntervalEntry`] between two |
@@ -62,6 +63,8 @@ pub(super) struct Json {
     swept: bool,
     solid: bool,
     has_frames: bool,
+    /// Bodies that were not closed in the frame before.
+    not_closed: Vec<u32>,
     lists_places: bool,
 }
 
@@ -185,13 +188,14 @@ struct FrameEntry<'a> {
     /// and `--within`.
     #[serde(skip_serializing_if = "Option::is_none")]
     crossing_edges: Option<Vec<(u32, u32, usize, usize)>>,
-    /// Components that lie inside bodies: body, component, body around it. The component is numbered
-    /// by the lowest of its triangles, from 0. Absent with one body.
+    /// Components that lie inside bodies: body, component, body around it. Components are numbered
+    /// in the order of their lowest triangles. Absent with one body.
     #[serde(skip_serializing_if = "Option::is_none")]
     inside: Option<Vec<[u32; 3]>>,
-    /// Bodies that are not closed, so that nothing is said to lie inside them.
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    not_closed: &'a [u32],
+    /// Bodies that are not closed, so that nothing is said to lie inside them. Absent where they are
+    /// as in the frame before, and in the first frame if there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    not_closed: Option<&'a [u32]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     places: Option<Vec<PlaceEntry>>,
 }
@@ -316,8 +320,8 @@ struct PlaceEntry {
     number: usize,
     /// Number of pairs, those that share a vertex too.
     count: usize,
-    /// With `--solid`: how far the deepest vertex of the place is inside the other body, linked with
-    /// it by vertices inside; 0 if there is none.
+    /// With `--solid`: how far the deepest vertex of the place is inside the other body. It is linked
+    /// with the place by vertices inside; 0 if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     depth: Option<f64>,
     #[serde(flatten)]
@@ -427,6 +431,7 @@ impl Json {
             swept: arguments.swept,
             solid: arguments.solid,
             has_frames: false,
+            not_closed: Vec::new(),
             lists_places: !arguments.count && !arguments.first,
         }
     }
@@ -532,6 +537,11 @@ impl Form for Json {
         });
         let places = found.places.as_ref().filter(|_| !self.count_only);
         let adjacent = found.adjacent.as_ref();
+        let open = found.inside.as_ref().map_or(&[][..], |inside| &inside.open);
+        let not_closed = self.not_closed != open;
+        if not_closed {
+            self.not_closed = open.to_vec();
+        }
         let entry = FrameEntry {
             frame: found.frame,
             changed: changed.collect(),
@@ -553,7 +563,7 @@ impl Form for Json {
                 let row = |it: &Nested| [it.body, it.component, it.inside];
                 inside.all.iter().map(row).collect()
             }),
-            not_closed: found.inside.as_ref().map_or(&[], |inside| &inside.open),
+            not_closed: not_closed.then_some(open),
             places: places.map(|places| places.iter().map(PlaceEntry::of).collect()),
         };
         let separator = if self.has_frames { "," } else { "" };

@@ -91,6 +91,7 @@ impl Output {
         checked.and(printed)?;
         if let Some(form) = &self.form
             && !form.says_inside()
+            && self.tally.inside.is_any()
         {
             let lines = self.tally.inside.lines(check);
             lines

@@ -23,7 +23,7 @@ pub(super) struct Tally {
     pub(super) only_touching: usize,
     /// Pairs that share a vertex.
     pub(super) adjacent: AdjacentTally,
-    /// What lies inside bodies.
+    /// Components inside bodies.
     pub(super) inside: InsideTally,
     /// Number of pairs with a triangle without area, counted or left out.
     pub(super) degenerate: usize,

@@ -13,6 +13,7 @@ use crate::union_find::{find, join};
 use crate::with_world;
 use pliant::{BodyId, Contained, Error, Selection, Watertight, World};
 use pliant_io::Body as Source;
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Component of a body that lies inside another body.
@@ -157,12 +158,15 @@ fn contained<S: pliant::Scalar>(world: &mut World<S>, stop: Question) -> Result<
     let mut counts: BTreeMap<BodyId, u32> = BTreeMap::new();
     let mut all = Vec::with_capacity(found.all.len());
     for it in found.all {
-        if !counts.contains_key(&it.body) {
-            let components = world.components(it.body)?;
-            let last = components.into_iter().filter(|&it| it != u32::MAX).max();
-            counts.insert(it.body, last.map_or(0, |last| last + 1));
-        }
-        all.push((it, counts[&it.body]));
+        let of = match counts.entry(it.body) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(new) => {
+                let components = world.components(it.body)?;
+                let last = components.into_iter().filter(|&it| it != u32::MAX).max();
+                *new.insert(last.map_or(0, |last| last + 1))
+            }
+        };
+        all.push((it, of));
     }
     Ok((all, found.open))
 }

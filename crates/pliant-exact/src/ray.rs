@@ -2,9 +2,8 @@
 //!
 //! The number of times that a closed surface winds round a point is how often a ray from it leaves,
 //! less how often it enters. Seen along the ray, triangles are a mesh in the plane, and the point
-//! lies in some of them. Where it lies on their borders, it is moved aside by less than any number:
-//! along one axis, and by much less along the other (Edelsbrunner and Mücke 1990, *Simulation of
-//! Simplicity*). So it lies on no border, triangles that are seen edge on hold it nowhere, and
+//! lies in some of them. On a border it is moved aside by less than any number (Edelsbrunner and
+//! Mücke 1990, *Simulation of Simplicity*). So triangles that are seen edge on hold it nowhere, and
 //! every edge keeps one side for both its triangles. In space the point stays where it is, and
 //! whether a triangle has it is decided before.
 

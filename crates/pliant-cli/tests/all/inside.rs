@@ -2,6 +2,7 @@
 
 use crate::common::{check, folder};
 use serde_json::json;
+use std::fmt::Write as _;
 
 /// A box from one corner to the other, turned outward, with vertices numbered from `first`.
 fn cube(lo: [f64; 3], hi: [f64; 3], first: usize) -> String {
@@ -14,7 +15,7 @@ fn cube(lo: [f64; 3], hi: [f64; 3], first: usize) -> String {
                 hi[axis]
             }
         });
-        text += &format!("v {} {} {}\n", at[0], at[1], at[2]);
+        writeln!(text, "v {} {} {}", at[0], at[1], at[2]).unwrap();
     }
     for quad in [
         [0, 2, 3, 1],
@@ -25,7 +26,7 @@ fn cube(lo: [f64; 3], hi: [f64; 3], first: usize) -> String {
         [1, 3, 7, 5],
     ] {
         let [a, b, c, d] = quad.map(|k| k + first);
-        text += &format!("f {a} {b} {c} {d}\n");
+        writeln!(text, "f {a} {b} {c} {d}").unwrap();
     }
     text
 }

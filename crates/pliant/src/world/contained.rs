@@ -38,9 +38,9 @@ impl<S: Scalar> World<S> {
     /// Finds the components of bodies that lie inside other bodies.
     ///
     /// A component lies inside a closed body under two conditions. None of its triangles crosses or
-    /// overlaps one of the body. Every vertex of it is inside or on the body, and one is inside. Inside is said by
-    /// [`NonZero`](InsideRule::NonZero). Of a selection of all bodies these are the pairs that may
-    /// meet, as filters say; of two bodies either in the other. A body is never
+    /// overlaps one of the body. Every vertex of it is inside or on the body, and one is inside.
+    /// Inside is said by [`NonZero`](InsideRule::NonZero). Of a selection of all bodies these are
+    /// the pairs that may meet, as filters say; of two bodies either in the other. A body is never
     /// inside itself, so of one body nothing is listed.
     ///
     /// Of a component that touches the body its corners are looked at: a triangle may span a hole

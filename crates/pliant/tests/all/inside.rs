@@ -5,8 +5,8 @@
 
 use crate::common::{Lcg, covering_configurations, share};
 use pliant::{
-    BodyId, ContactKind, Contained, Curves, ErrorKind, Feature, InsideRule, Located, Options,
-    Scalar, Selection, Side, World,
+    BodyId, ContactKind, Contained, Curve, Curves, ErrorKind, Feature, InsideRule, Located,
+    Options, Scalar, Selection, Side, World,
 };
 use pliant_exact::distance::nearest_triangle;
 use pliant_oracle::{compare_distance, winding_number};
@@ -528,7 +528,7 @@ fn clash(a: &Mesh<f64>, b: &Mesh<f64>, clearance: f64) -> &'static str {
     if contacts.iter().any(|it| it.kind == ContactKind::Crossing) {
         let mut curves = Curves::new();
         curves.update(&world, &contacts).unwrap();
-        let closed = curves.iter().filter(|curve| curve.is_closed()).count();
+        let closed = curves.iter().filter(Curve::is_closed).count();
         return if closed > 1 { "piercing" } else { "protrusion" };
     }
     if !contacts.is_empty() {

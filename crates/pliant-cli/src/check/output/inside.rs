@@ -12,10 +12,10 @@ const MOST_NAMED: usize = 5;
 
 /// Components inside a body, over the frames so far.
 #[derive(Default)]
-struct Of {
+struct Contents {
     components: BTreeSet<u32>,
     /// How many components the body has, at most.
-    of: u32,
+    all_of_body: u32,
     /// Number of frames, and the first.
     frames: (usize, usize),
 }
@@ -23,7 +23,7 @@ struct Of {
 /// Components inside bodies, by the two bodies.
 #[derive(Default)]
 pub(super) struct InsideTally {
-    of: BTreeMap<[u32; 2], Of>,
+    of: BTreeMap<[u32; 2], Contents>,
     /// Bodies that were not closed in some frame.
     open: BTreeSet<u32>,
     frames: usize,
@@ -40,7 +40,7 @@ impl InsideTally {
                 of.frames.1 = found.frame;
             }
             of.components.insert(it.component);
-            of.of = of.of.max(it.of);
+            of.all_of_body = of.all_of_body.max(it.of);
         }
         let here: BTreeSet<[u32; 2]> = inside.all.iter().map(|it| [it.body, it.inside]).collect();
         for both in here {
@@ -57,7 +57,7 @@ impl InsideTally {
     pub(super) fn lines(&self, check: &Check) -> Vec<String> {
         let name = |body: u32| {
             let facts = check.body(body);
-            facts.map_or_else(String::new, |body| shown(body.name).to_string())
+            facts.map_or_else(String::new, |body| shown(body.name))
         };
         let mut lines = Vec::new();
         for ([body, inside], of) in self.of.iter().take(MOST) {
@@ -70,7 +70,7 @@ impl InsideTally {
             };
             let numbers: Vec<String> = of.components.iter().map(u32::to_string).collect();
             let (which, lies) = match &numbers[..] {
-                [_] if of.of == 1 => (String::new(), "lies"),
+                [_] if of.all_of_body == 1 => (String::new(), "lies"),
                 [only] => (format!("component {only} of "), "lies"),
                 several if several.len() <= MOST_NAMED => {
                     (format!("components {} of ", several.join(", ")), "lie")

@@ -192,8 +192,8 @@ struct FrameEntry<'a> {
     /// in the order of their lowest triangles. Absent with one body.
     #[serde(skip_serializing_if = "Option::is_none")]
     inside: Option<Vec<[u32; 3]>>,
-    /// Bodies that are not closed, so that nothing is said to lie inside them. Absent where they are
-    /// as in the frame before, and in the first frame if there are none.
+    /// Bodies that are not closed, so that nothing is said to lie inside them. Absent where they
+    /// are as in the frame before, and in the first frame if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     not_closed: Option<&'a [u32]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -320,8 +320,8 @@ struct PlaceEntry {
     number: usize,
     /// Number of pairs, those that share a vertex too.
     count: usize,
-    /// With `--solid`: how far the deepest vertex of the place is inside the other body. It is linked
-    /// with the place by vertices inside; 0 if there is none.
+    /// With `--solid`: how far the deepest vertex of the place is inside the other body. It is
+    /// linked with the place by vertices inside; 0 if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     depth: Option<f64>,
     #[serde(flatten)]

@@ -122,8 +122,8 @@ fn certain_features(elements: &Primitives) -> Option<[Feature; 2]> {
 
 /// The feature of a triangle in whose Voronoi region a point certainly is.
 ///
-/// Signs are certain beyond a bound on all roundings. Let u = 2^-53. Let E and T be sums of
-/// absolute coordinates, of an edge and of the way to the point, and F and G of two edges.
+/// Signs are certain beyond a bound on all roundings. Let u = 2^-53. Let E, T, F and
+/// G be sums of absolute coordinates: of an edge, of the way to the point, and of two edges.
 ///
 /// - A dot product has two differences, a product and two sums on each path: 6 u E T.
 /// - A component of a cross product has 4 u of its two terms, whose sum over all is at most E T.

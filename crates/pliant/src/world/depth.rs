@@ -46,11 +46,11 @@ impl<S: Scalar> World<S> {
     /// let corners = |x: f64, s: f64| [[x, x, x], [x + s, x, x], [x, x + s, x], [x, x, x + s]];
     /// let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
     /// let large = world.add(&faces, &corners(0.0, 8.0))?;
-    /// let small = world.add(&faces, &corners(-1.5, 4.0))?;
+    /// let small = world.add(&faces, &corners(-1.5, 8.0))?;
     /// // Of the corner (0, 0, 0) of the large one in the small one.
     /// let depth = world.depth(large, small)?;
-    /// assert_eq!(depth.vertex, Some(0));
-    /// assert!(depth.at_least > 0.0 && depth.at_least <= depth.at_most);
+    /// assert_eq!((depth.vertex, depth.at_least), (Some(0), 1.5));
+    /// assert!(depth.at_least <= depth.at_most);
     /// # Ok::<(), pliant::Error>(())
     /// ```
     ///

@@ -1,11 +1,11 @@
 //! Closest points of bodies, and how deep bodies reach into others.
 
 use crate::arrays::{give, start};
-use crate::points::{Number, PliantPoints, points};
-use crate::questions::{Interrupt, PliantQuery};
-use crate::status::Refused;
+use crate::inside::with_points;
+use crate::points::PliantPoints;
+use crate::questions::PliantQuery;
 use crate::world::{calls, with_world};
-use pliant::{BodyId, ClosestPoint, World};
+use pliant::{BodyId, ClosestPoint};
 
 /// Answers that the caller reads, one for each function.
 #[derive(Default)]
@@ -117,7 +117,7 @@ calls! {
         // SAFETY: as the header says.
         let until = unsafe { PliantQuery::interrupt_alone(query)? };
         let found = with_world!(&mut inside.world, world => {
-            closest_points(world, &at, (of, cut_off), &until)?
+            with_points(world, &at, &until, |it, at| it.closest_points(at, of, cut_off))?
         });
         let view = inside.views.of::<Kept>().closest.told(&found);
         // SAFETY: as the header says.
@@ -135,7 +135,9 @@ calls! {
         // SAFETY: as the header says.
         let until = unsafe { PliantQuery::interrupt_alone(query)? };
         let found = with_world!(&mut inside.world, world => {
-            signed_closest_points(world, &at, (BodyId(body), cut_off), &until)?
+            with_points(world, &at, &until, |it, at| {
+                it.signed_closest_points(at, BodyId(body), cut_off)
+            })?
         });
         let view = inside.views.of::<Kept>().with_signs.told(&found);
         // SAFETY: as the header says.
@@ -167,32 +169,4 @@ calls! {
         unsafe { give(depth, view) };
         Ok(())
     }
-}
-
-/// Asks a world of a precision for the points that are closest to the caller's.
-fn closest_points<S: Number>(
-    world: &mut World<S>,
-    at: &PliantPoints,
-    (of, cut_off): (Option<BodyId>, f64),
-    until: &Interrupt,
-) -> Result<Vec<Option<ClosestPoint>>, Refused> {
-    // SAFETY: as the header says of the caller's points.
-    let at = unsafe { points::<S>(at, "points")? };
-    Ok(world
-        .interruptible(&|| until.ends())
-        .closest_points(&at, of, cut_off)?)
-}
-
-/// As [`closest_points`], with signs.
-fn signed_closest_points<S: Number>(
-    world: &mut World<S>,
-    at: &PliantPoints,
-    (body, cut_off): (BodyId, f64),
-    until: &Interrupt,
-) -> Result<Vec<Option<ClosestPoint>>, Refused> {
-    // SAFETY: as the header says of the caller's points.
-    let at = unsafe { points::<S>(at, "points")? };
-    Ok(world
-        .interruptible(&|| until.ends())
-        .signed_closest_points(&at, body, cut_off)?)
 }

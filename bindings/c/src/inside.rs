@@ -5,7 +5,7 @@ use crate::points::{Number, PliantPoints, points};
 use crate::questions::{Interrupt, PliantQuery};
 use crate::status::{BAD_OPTION, Refused};
 use crate::world::{calls, with_world};
-use pliant::{BodyId, InsideRule, Located, Side, Watertight, World};
+use pliant::{BodyId, Error, InsideRule, Interruptible, Located, Side, Watertight, World};
 
 /// Answers that the caller reads, one for each function.
 #[derive(Default)]
@@ -116,7 +116,7 @@ calls! {
         // SAFETY: as the header says.
         let until = unsafe { PliantQuery::interrupt_alone(query)? };
         let found = with_world!(&mut inside.world, world => {
-            points_inside(world, &at, (BodyId(body), rule), &until)?
+            with_points(world, &at, &until, |it, at| it.points_inside(at, BodyId(body), rule))?
         });
         let view = inside.views.of::<Kept>().points.told(&found);
         // SAFETY: as the header says.
@@ -166,16 +166,14 @@ calls! {
     }
 }
 
-/// Locates points of the caller in a world of a precision.
-fn points_inside<S: Number>(
+/// Asks a world of a precision about points of the caller.
+pub(crate) fn with_points<S: Number, A>(
     world: &mut World<S>,
     at: &PliantPoints,
-    (body, rule): (BodyId, InsideRule),
     until: &Interrupt,
-) -> Result<Vec<Located>, Refused> {
+    ask: impl FnOnce(Interruptible<'_, S>, &[[S; 3]]) -> Result<A, Error>,
+) -> Result<A, Refused> {
     // SAFETY: as the header says of the caller's points.
     let at = unsafe { points::<S>(at, "points")? };
-    Ok(world
-        .interruptible(&|| until.ends())
-        .points_inside(&at, body, rule)?)
+    Ok(ask(world.interruptible(&|| until.ends()), &at)?)
 }

@@ -549,7 +549,10 @@ impl Check {
         let changed: Vec<usize> = changed.collect();
         self.places.forget(&changed);
         if self.asked.inside && self.bodies.count() > 1 {
-            let (bodies, pieces) = ((&self.bodies, &self.filter), &mut self.pieces);
+            let (bodies, pieces) = (
+                (&self.bodies, &self.filter, self.asked.options),
+                &mut self.pieces,
+            );
             let inside = solid::inside(&mut self.sequence, bodies, pieces, stop);
             found.inside = Some(inside.map_err(|error| self.refused(frame, error))?);
         }

@@ -32,7 +32,8 @@ pub struct Place {
     /// and several pairs in one segment, along an edge, have one.
     pub length: f64,
     /// Depth of the deepest vertex inside the other body that is linked with the place by vertices
-    /// inside; 0 if there is none. `None` if [`solid`](crate::Settings::solid) is not set.
+    /// inside; 0 if there is none. `None` if [`solid`](crate::Settings::solid) is not set, within
+    /// one source, and where no source is closed.
     pub depth: Option<f64>,
 }
 

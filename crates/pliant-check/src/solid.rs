@@ -11,7 +11,7 @@ use crate::places::{Place, Places};
 use crate::sequence::Sequence;
 use crate::union_find::{find, join};
 use crate::with_world;
-use pliant::{BodyId, Contained, Error, Selection, Watertight, World};
+use pliant::{BodyId, Contained, Error, Options, Selection, Watertight, World};
 use pliant_io::Body as Source;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,7 +24,7 @@ pub struct Nested {
     /// The component, as [`pliant::World::components`] numbers it.
     pub component: u32,
     /// How many components the body has.
-    pub of: u32,
+    pub components: u32,
     /// Body that it lies inside.
     pub inside: u32,
 }
@@ -41,6 +41,9 @@ pub struct Inside {
 /// The caller's stop callback.
 type Question<'q> = Option<&'q (dyn Fn() -> bool + Sync)>;
 
+/// Stands for a callback that was not given.
+const NEVER: fn() -> bool = || false;
+
 /// World of pieces and groups.
 pub(crate) struct PieceWorld {
     world: World<f64>,
@@ -54,8 +57,8 @@ pub(crate) struct PieceWorld {
 
 impl PieceWorld {
     /// Makes the world of the bodies that sources are split into, whose meshes stay.
-    fn new(sources: &[Source], bodies: &Bodies) -> Result<Self, Error> {
-        let mut world = World::new();
+    fn new(sources: &[Source], bodies: &Bodies, options: Options) -> Result<Self, Error> {
+        let mut world = World::with_options(options);
         let (mut ids, mut vertices, mut are_closed) = (Vec::new(), Vec::new(), Vec::new());
         let mut meshes = Vec::new();
         for (number, source) in sources.iter().enumerate() {
@@ -114,7 +117,7 @@ fn positions_of(source: &Source, vertices: &[u32]) -> Vec<[f64; 3]> {
 /// Finds what lies inside bodies that may meet, in the frame that the sequence is in.
 pub(crate) fn inside(
     sequence: &mut Sequence,
-    (bodies, filter): (&Bodies, &Filter),
+    (bodies, filter, options): (&Bodies, &Filter, Options),
     pieces: &mut Option<PieceWorld>,
     stop: Question,
 ) -> Result<Inside, Error> {
@@ -125,7 +128,7 @@ pub(crate) fn inside(
                 known.go_to(&sequence.sources)?;
                 known
             }
-            None => pieces.insert(PieceWorld::new(&sequence.sources, bodies)?),
+            None => pieces.insert(PieceWorld::new(&sequence.sources, bodies, options)?),
         };
         let (all, _) = contained(&mut pieces.world, stop)?;
         (all, pieces.open.clone(), &pieces.ids)
@@ -135,10 +138,10 @@ pub(crate) fn inside(
         let open = open.into_iter().map(|id| number(ids, id));
         (all, open.collect(), &*ids)
     };
-    let nested = all.into_iter().map(|(it, of)| Nested {
+    let nested = all.into_iter().map(|(it, components)| Nested {
         body: number(ids, it.body),
         component: it.component,
-        of,
+        components,
         inside: number(ids, it.inside),
     });
     let all = nested
@@ -151,14 +154,13 @@ pub(crate) fn inside(
 type Contents = (Vec<(Contained, u32)>, Vec<BodyId>);
 
 fn contained<S: pliant::Scalar>(world: &mut World<S>, stop: Question) -> Result<Contents, Error> {
-    let found = match stop {
-        Some(stop) => world.interruptible(stop).contained(Selection::World),
-        None => world.contained(Selection::World),
-    }?;
+    let found = world
+        .interruptible(stop.unwrap_or(&NEVER))
+        .contained(Selection::World)?;
     let mut counts: BTreeMap<BodyId, u32> = BTreeMap::new();
     let mut all = Vec::with_capacity(found.all.len());
     for it in found.all {
-        let of = match counts.entry(it.body) {
+        let count = match counts.entry(it.body) {
             Entry::Occupied(known) => *known.get(),
             Entry::Vacant(new) => {
                 let components = world.components(it.body)?;
@@ -166,14 +168,15 @@ fn contained<S: pliant::Scalar>(world: &mut World<S>, stop: Question) -> Result<
                 *new.insert(last.map_or(0, |last| last + 1))
             }
         };
-        all.push((it, of));
+        all.push((it, count));
     }
     Ok((all, found.open))
 }
 
 /// Says how deep each place of the frame is: places that [`Places`] has just ended.
 ///
-/// Sources are solids, their pieces are not told apart. A place within one source has no depth.
+/// Sources are solids; their pieces are not told apart. So a place within one source has no depth,
+/// nor has one of sources that are open.
 pub(crate) fn say_depths(
     sequence: &mut Sequence,
     (known, places): (&Places, &mut [Place]),
@@ -203,9 +206,6 @@ pub(crate) fn say_depths(
             others.for_each(|&b| meet.entry([a, b]).or_default().push(*number));
         }
     }
-    for place in places.iter_mut() {
-        place.depth = Some(0.0);
-    }
     for ([a, b], numbers) in meet {
         let [id_a, id_b] = [ids[a as usize], ids[b as usize]];
         let Some(depths) = depths(world, [id_a, id_b], stop)? else {
@@ -234,7 +234,7 @@ pub(crate) fn say_depths(
                 m.max(deepest[find(&mut parents, it[1]) as usize])
             });
             let known = &mut places[by_number[&number]].depth;
-            *known = known.map(|known| known.max(depth));
+            *known = Some(known.map_or(depth, |known| known.max(depth)));
         }
     }
     Ok(())
@@ -250,10 +250,7 @@ fn depths(
         if !world.watertight(b)?.is_closed() {
             return Ok(None);
         }
-        let depth = match stop {
-            Some(stop) => world.interruptible(stop).depth(a, b),
-            None => world.depth(a, b),
-        };
-        Ok(Some(depth?.of_vertices))
+        let depth = world.interruptible(stop.unwrap_or(&NEVER)).depth(a, b)?;
+        Ok(Some(depth.of_vertices))
     })
 }

@@ -368,34 +368,10 @@ impl ErrorKind {
                 pair,
                 corner,
                 position,
-            } if are_in_range(position) => write!(
-                f,
-                "corner {corner} of pair {pair} is at {position:?}, of which this thread takes a \
-                 coordinate for zero, because it flushes subnormal numbers; switch flush-to-zero \
-                 and denormals-are-zero off, or make the coordinate zero"
-            ),
-            Self::BadCorner {
-                pair,
-                corner,
-                position,
-            } => write!(
-                f,
-                "corner {corner} of pair {pair} is at {position:?}; coordinates must be finite and \
-                 at most {:e} in magnitude",
-                f32::MAX
-            ),
-            Self::BadPoint { point, position } if are_in_range(position) => write!(
-                f,
-                "point {point} is at {position:?}, of which this thread takes a coordinate for \
-                 zero, because it flushes subnormal numbers; switch flush-to-zero and \
-                 denormals-are-zero off, or make the coordinate zero"
-            ),
-            Self::BadPoint { point, position } => write!(
-                f,
-                "point {point} is at {position:?}; coordinates must be finite and at most {:e} in \
-                 magnitude",
-                f32::MAX
-            ),
+            } => bad_position(f, format_args!("corner {corner} of pair {pair}"), position),
+            Self::BadPoint { point, position } => {
+                bad_position(f, format_args!("point {point}"), position)
+            }
             Self::NotClosed { edges, count } => {
                 let named: Vec<String> = edges.iter().map(|[a, b]| format!("{a}-{b}")).collect();
                 write!(
@@ -483,7 +459,24 @@ impl ErrorKind {
     }
 }
 
-/// Whether coordinates are wrong for another reason than their size.
-fn are_in_range(position: &[f64; 3]) -> bool {
-    position.iter().all(|x| x.abs() <= f64::from(f32::MAX))
+/// Message about a point that is no vertex: its coordinates are out of range, or else this thread
+/// takes one for zero.
+fn bad_position(
+    f: &mut fmt::Formatter<'_>,
+    what: fmt::Arguments<'_>,
+    position: &[f64; 3],
+) -> fmt::Result {
+    if position.iter().all(|x| x.abs() <= f64::from(f32::MAX)) {
+        return write!(
+            f,
+            "{what} is at {position:?}, of which this thread takes a coordinate for zero, because \
+             it flushes subnormal numbers; switch flush-to-zero and denormals-are-zero off, or \
+             make the coordinate zero"
+        );
+    }
+    write!(
+        f,
+        "{what} is at {position:?}; coordinates must be finite and at most {:e} in magnitude",
+        f32::MAX
+    )
 }

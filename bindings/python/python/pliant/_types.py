@@ -662,7 +662,8 @@ class Place:
     """The largest."""
     depth: float | None = None
     """How far the deepest vertex of the place is inside the other body, linked with it by vertices
-    inside; 0 if there is none. None without solid=True."""
+    inside; 0 if there is none. None without solid=True, within one file, and where no file is
+    closed."""
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@
 use super::{Feature, Feet, Primitives, feet};
 use crate::Feature::{Corner, Edge, Inside};
 use crate::Point;
-use crate::float::{U, power};
+use crate::float::power;
 use crate::integer::powers_of_all;
 use crate::ring::Ring;
 
@@ -121,74 +121,30 @@ fn certain_features(elements: &Primitives) -> Option<[Feature; 2]> {
 }
 
 /// The feature of a triangle in whose Voronoi region a point certainly is.
-///
-/// Signs are certain beyond a bound on all roundings. Let u = 2^-53. Let E, T, F and
-/// G be sums of absolute coordinates: of an edge, of the way to the point, and of two edges.
-///
-/// - A dot product has two differences, a product and two sums on each path: 6 u E T.
-/// - A component of a cross product has 4 u of its two terms, whose sum over all is at most E T.
-/// - A dot product of two such is off by 4 u from either, and 3 u: 11 u E T F G.
-///
-/// 32 u are allowed for both. What is lost below the normal range is far less than [`LEAST`].
 fn of_point_and_triangle(p: &Point, corners: [&Point; 3]) -> Option<Feature> {
-    let certain = |x: f64, size: f64| {
-        let error = 32.0 * U * size + LEAST;
-        i8::from(x > error) - i8::from(x < -error)
-    };
-    // From each corner to the next, and to the point. Loops: closures over arrays stay calls.
-    let (mut edges, mut to_point) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
-    let (mut of_edges, mut of_point) = ([0.0; 3], [0.0; 3]);
-    for k in 0..3 {
-        let (here, next) = (corners[k], corners[(k + 1) % 3]);
-        for axis in 0..3 {
-            edges[k][axis] = next[axis] - here[axis];
-            to_point[k][axis] = p[axis] - here[axis];
-            of_edges[k] += edges[k][axis].abs();
-            of_point[k] += to_point[k][axis].abs();
-        }
-    }
-    let (mut ahead, mut behind) = ([0; 3], [0; 3]);
-    for k in 0..3 {
-        let (edge, next) = (&edges[k], (k + 1) % 3);
-        ahead[k] = certain(dot_of(edge, &to_point[k]), of_edges[k] * of_point[k]);
-        behind[k] = certain(dot_of(edge, &to_point[next]), of_edges[k] * of_point[next]);
-    }
+    // From each corner to the next, and to the point.
+    let edges = [0, 1, 2].map(|k| way(corners[(k + 1) % 3], corners[k]));
+    let to_point = corners.map(|corner| way(p, corner));
+    let ahead = [0, 1, 2].map(|k| dot(&edges[k], &to_point[k]));
+    let behind = [0, 1, 2].map(|k| dot(&edges[k], &to_point[(k + 1) % 3]));
     for k in 0..3 {
         // Behind the start of its edge, and beyond the end of the edge before.
-        if ahead[k] < 0 && behind[(k + 2) % 3] > 0 {
+        if ahead[k].is_negative() && behind[(k + 2) % 3].is_positive() {
             return Some(Corner(k));
         }
     }
-    let n = cross_of(&edges[0], &edges[1]);
-    let of_plane = of_edges[0] * of_edges[1];
-    let mut sides = [0; 3];
+    let n = cross(&edges[0], &edges[1]);
+    let sides = [0, 1, 2].map(|k| dot(&cross(&edges[k], &to_point[k]), &n));
     for k in 0..3 {
-        let x = dot_of(&cross_of(&edges[k], &to_point[k]), &n);
-        sides[k] = certain(x, of_edges[k] * of_point[k] * of_plane);
-        if sides[k] < 0 && ahead[k] > 0 && behind[k] < 0 {
+        if sides[k].is_negative() && ahead[k].is_positive() && behind[k].is_negative() {
             return Some(Edge(k));
         }
     }
-    (sides == [1; 3]).then_some(Inside)
+    sides
+        .iter()
+        .all(|side| side.is_positive())
+        .then_some(Inside)
 }
-
-#[inline(always)]
-fn dot_of(a: &Point, b: &Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline(always)]
-fn cross_of(a: &Point, b: &Point) -> Point {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-/// Far more than any product of four loses below the normal range: 2^-1020, times a product of two
-/// lengths below 2^103.
-const LEAST: f64 = power(-780);
 
 /// The features of two edges that are certainly the nearest.
 fn of_edges(a: [&Point; 2], b: [&Point; 2]) -> Option<[Feature; 2]> {

@@ -25,6 +25,15 @@ impl<S: Real> Bounds<S> {
         hi: [S::NEG_INFINITY; 3],
     };
 
+    /// Returns the bounds of one point.
+    #[inline]
+    pub(crate) fn at(point: [S; 3]) -> Self {
+        Self {
+            lo: point,
+            hi: point,
+        }
+    }
+
     /// Extends the bounds to a point. A NaN is passed over.
     #[inline]
     pub(crate) fn include(&mut self, point: [S; 3]) {

@@ -28,6 +28,6 @@ pub(crate) mod vector;
 
 pub(crate) use bounds::{Aabb, Bounds, Origin};
 pub(crate) use capsule::Capsule;
-pub(crate) use points::{IN_A_ROW, Points, RowBounds};
+pub(crate) use points::{IN_A_ROW, Points, RowBounds, padded};
 pub(crate) use real::{OUTWARD, Real, larger, smaller};
 pub(crate) use shape::Shape;

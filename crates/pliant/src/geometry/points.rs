@@ -94,7 +94,9 @@ fn bounds_of_row<S: Real>(row: &[[S; 4]]) -> RowBounds<S> {
     [bounds.lo, bounds.hi].map(padded)
 }
 
-fn padded<S: Copy>([x, y, z]: [S; 3]) -> [S; 4] {
+/// A point with its padding.
+#[inline(always)]
+pub(crate) fn padded<S: Copy>([x, y, z]: [S; 3]) -> [S; 4] {
     [x, y, z, z]
 }
 

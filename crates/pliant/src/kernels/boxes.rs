@@ -188,12 +188,12 @@ pub(crate) fn lanes_overlapping<I: Simd, const N: usize>(
     (x & y & z).to_bitmask()
 }
 
-/// How well each of N boxes promises to hold what is near a box, computed plainly: the less, the
-/// better. NaN for an empty lane.
+/// Priorities of N boxes in a descent to what is near one box, computed plainly: the least first.
+/// NaN for an empty lane.
 ///
-/// The square of the gap, and of boxes that overlap it the one that ends nearest.
+/// The square of the gap; of boxes without one, those first that end nearest.
 #[inline(always)]
-pub(crate) fn promises<I: Simd, const N: usize>(
+pub(crate) fn priorities<I: Simd, const N: usize>(
     i: I,
     lanes: &BoxLanes<N>,
     query: &Aabb,
@@ -210,9 +210,9 @@ pub(crate) fn promises<I: Simd, const N: usize>(
         let gap = gap.simd_gt(zero).select(gap, zero);
         sum += gap * gap + far * far * 2.0_f32.powi(-16);
     }
-    let mut promises = [0.0; 8];
-    sum.store_array(&mut promises);
-    promises
+    let mut priorities = [0.0; 8];
+    sum.store_array(&mut priorities);
+    priorities
 }
 
 /// The lane of the least number; the first lane is one, others may be NaN.

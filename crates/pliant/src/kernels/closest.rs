@@ -231,8 +231,20 @@ fn edges_and_edges<I: Simd, V: Lanes<I>>(
 /// Part of the triangle that certainly has the closest point of four points and triangles, if one
 /// does; in double precision.
 ///
-/// By Voronoi regions and their signs, as `pliant_exact::distance::closest_features` finds them,
-/// with the same bound on roundings, and four side by side.
+/// By Voronoi regions and their signs, four side by side. Where nothing is certain,
+/// `pliant_exact::distance::closest_features` knows.
+///
+/// # Rounding
+///
+/// Let u = 2^-53. Let E, T, F and G be sums of absolute coordinates: of an edge, of the way to the
+/// point, and of two edges.
+///
+/// - A dot product has two differences, a product and two sums on each path: 6 u E T.
+/// - A component of a cross product has 4 u of its two terms, whose sum over all is at most E T.
+/// - A dot product of two such is off by 4 u from either, and 3 u: 11 u E T F G.
+///
+/// 32 u are allowed for both. A product that is lost below the normal range, 2^-1020, is multiplied
+/// by two lengths. Where these are below 2^103 the 2^-780 that are added are far more.
 #[inline(always)]
 pub(crate) fn certain_parts<I: Simd, S: Real>(
     i: I,
@@ -294,7 +306,7 @@ fn size<I: Simd>(way: Vector<f64x4<I>>) -> f64x4<I> {
 }
 
 /// Lanes that are certainly above 0, and lanes that are certainly below, of products whose factors
-/// have a product of sizes. See `pliant_exact::distance::closest_features`.
+/// have a product of sizes: see [`certain_parts`].
 #[inline(always)]
 fn signs<I: Simd>(x: f64x4<I>, size: f64x4<I>) -> [u64; 2] {
     let error = size * (16.0 * f64::EPSILON) + f64::from_bits((1023 - 780) << 52);
@@ -437,6 +449,24 @@ pub(crate) fn bound_eight<I: Simd, S: Coordinate>(
     let mut bounds = [[0.0; 8]; 2];
     found.least.store_array(&mut bounds[0]);
     found.most.store_array(&mut bounds[1]);
+    bounds
+}
+
+/// Bounds of the distances of eight points from triangles, in double precision: lower, then upper.
+#[inline(always)]
+pub(crate) fn bound_eight_closely<I: Simd, S: Real>(
+    i: I,
+    pairs: &[FourCorners<S>; 8],
+) -> [[f64; 8]; 2] {
+    let [p, q, r, s, t, u, v, w] = *pairs;
+    let [first, later] = [[p, q, r, s], [t, u, v, w]].map(|four| of_elements(i, false, &four));
+    let mut bounds = [[0.0; 8]; 2];
+    for lane in 0..4 {
+        bounds[0][lane] = first.least[lane];
+        bounds[0][lane + 4] = later.least[lane];
+        bounds[1][lane] = first.most[lane];
+        bounds[1][lane + 4] = later.most[lane];
+    }
     bounds
 }
 

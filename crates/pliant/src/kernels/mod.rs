@@ -47,7 +47,7 @@ mod stars;
 
 pub(crate) use boxes::{
     BoxLanes, EightBoxes, at_most, lanes_overlapping, least_of, near_mask, near_mask_each,
-    overlap_mask, promises,
+    overlap_mask, priorities,
 };
 pub(crate) use buffer::Buffer;
 pub(crate) use capsules::{EightCapsules, Volumes, cull_by_capsules};

@@ -3,11 +3,10 @@
 
 use super::packets::Packet;
 use super::reach::Reach;
-use crate::geometry::{Aabb, Shape};
+use crate::geometry::{Aabb, Shape, padded};
 use crate::ids::{BlockId, BodyId, TreeTriangle};
-use crate::kernels::closest::{FourCorners, bound_eight, certain_parts, of_elements};
-use crate::kernels::{Coordinate, Instructions, dispatch, least_of, promises};
-use crate::queries::Removed;
+use crate::kernels::closest::{FourCorners, bound_eight, bound_eight_closely, certain_parts};
+use crate::kernels::{Coordinate, Instructions, dispatch, least_of, priorities};
 use crate::traversal::View;
 use pliant_exact::Feature;
 use pliant_exact::distance::nearest_triangle;
@@ -70,12 +69,8 @@ pub(super) struct Candidates {
 }
 
 impl Candidates {
-    fn push<S>(&mut self, view: View<S>, point: u32, triangle: TreeTriangle) {
-        if !view
-            .read
-            .removed
-            .is_some_and(|it: Removed| it.has(triangle))
-        {
+    fn push<S: Coordinate>(&mut self, view: View<S>, point: u32, triangle: TreeTriangle) {
+        if !view.read.is_gone(triangle) {
             self.pairs.push((point, triangle));
         }
     }
@@ -113,7 +108,7 @@ impl Candidates {
                     continue;
                 }
                 let block = BlockId(leaves.blocks(leaf).start);
-                let lane = least_of(promises(i, of_blocks.of(block), its_box));
+                let lane = least_of(priorities(i, of_blocks.of(block), its_box));
                 self.push(view, *point, leaves.first_triangle(leaf).plus(lane as u32));
             }
         });
@@ -130,12 +125,12 @@ impl Candidates {
         }
     }
 
-    /// Bounds the distances of all pairs in single precision.
+    /// Bounds the distances of all pairs: closely in double precision, else in single.
     pub(super) fn bound<S: Coordinate>(
         &mut self,
         instructions: Instructions,
-        view: View<S>,
-        points: &[[S; 4]],
+        (view, points): (View<S>, &[[S; 4]]),
+        closely: bool,
         nearest: &mut [Nearest],
     ) {
         self.least.clear();
@@ -143,34 +138,15 @@ impl Candidates {
         dispatch!(instructions, i => {
             for some in self.pairs.chunks(8) {
                 let corners = eight_of(shape, points, some);
-                let [least, most] = bound_eight(i, &corners);
+                let [least, most] = if closely {
+                    bound_eight_closely(i, &corners)
+                } else {
+                    bound_eight(i, &corners).map(|lanes| lanes.map(f64::from))
+                };
                 for (lane, &(point, _)) in some.iter().enumerate() {
                     let limit = &mut nearest[point as usize].limit;
-                    *limit = limit.min(most[lane].into());
-                    self.least.push(least[lane].into());
-                }
-            }
-        });
-    }
-
-    /// Bounds the distances of all pairs in double precision.
-    pub(super) fn bound_closely<S: Coordinate>(
-        &mut self,
-        instructions: Instructions,
-        view: View<S>,
-        points: &[[S; 4]],
-        nearest: &mut [Nearest],
-    ) {
-        self.least.clear();
-        let shape = view.read.source.shape();
-        dispatch!(instructions, i => {
-            for some in self.pairs.chunks(4) {
-                let eight = eight_of(shape, points, some);
-                let bounds = of_elements(i, false, &[eight[0], eight[1], eight[2], eight[3]]);
-                for (lane, &(point, _)) in some.iter().enumerate() {
-                    let limit = &mut nearest[point as usize].limit;
-                    *limit = limit.min(bounds.most[lane]);
-                    self.least.push(bounds.least[lane]);
+                    *limit = limit.min(most[lane]);
+                    self.least.push(least[lane]);
                 }
             }
         });
@@ -251,10 +227,9 @@ impl Candidates {
         self.parts.clear();
         dispatch!(instructions, i => {
             for some in self.rivals.chunks(4) {
-                let pad = |[x, y, z]: [f64; 3]| [x, y, z, z];
                 let mut four = [[[0.0; 4]; 4]; 4];
                 for (four, (point, it)) in four.iter_mut().zip(some) {
-                    let [a, b, c] = it.corners.map(pad);
+                    let [a, b, c] = it.corners.map(padded);
                     *four = [points[*point as usize].map(S::to_f64), a, b, c];
                 }
                 let parts = certain_parts(i, &four.each_ref().map(<[_; 4]>::each_ref));

@@ -1,7 +1,7 @@
 //! Closest points as callers get them, measured once the nearest triangle is known.
 
 use super::candidates::Nearest;
-use crate::geometry::Real;
+use crate::geometry::{Real, padded};
 use crate::ids::BodyId;
 use crate::kernels::closest::certain_parts;
 use crate::kernels::{Coordinate, Instructions, dispatch};
@@ -79,11 +79,10 @@ fn measure_four<S: Coordinate>(
     cut_off: f64,
     measured: &mut [Option<ClosestPoint>],
 ) {
-    let pad = |[x, y, z]: [f64; 3]| [x, y, z, z];
     let corners = |&place: &usize| {
         let found = nearest[place].found?;
-        let [a, b, c] = found.corners.map(pad);
-        Some([pad(points[place].map(Real::to_f64)), a, b, c])
+        let [a, b, c] = found.corners.map(padded);
+        Some([padded(points[place].map(Real::to_f64)), a, b, c])
     };
     let Some(first) = places.first().and_then(corners) else {
         return;

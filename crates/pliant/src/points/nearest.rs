@@ -11,7 +11,7 @@ use super::packets::{Packet, runs, together};
 use super::share::{Job, for_each_tree, share};
 use crate::collide::Common;
 use crate::error::Error;
-use crate::geometry::Bounds;
+use crate::geometry::{Bounds, padded};
 use crate::ids::BodyId;
 use crate::kernels::Coordinate;
 use crate::threads::Interrupt;
@@ -33,15 +33,8 @@ pub(crate) fn find_nearest<S: Coordinate>(
     let body = common.bodies.get(id)?;
     let bounds = body.bounds();
     let mut all = points.iter().zip(nearest.iter());
-    let is_near = |(&point, its): (&[S; 3], &Nearest)| {
-        gap(
-            &bounds,
-            &Bounds {
-                lo: point,
-                hi: point,
-            },
-        ) <= its.limit
-    };
+    let is_near =
+        |(&point, its): (&[S; 3], &Nearest)| gap(&bounds, &Bounds::at(point)) <= its.limit;
     if !all.any(is_near) {
         return Ok(());
     }
@@ -62,18 +55,14 @@ pub(crate) fn find_nearest<S: Coordinate>(
                 } = job;
                 let refit = trees.refit();
                 let instructions = refit.instructions;
-                packets.clear();
                 let origin = trees.view().read.source.shape().origin;
-                let padded: Vec<[S; 4]> = points.iter().map(|&[x, y, z]| [x, y, z, z]).collect();
+                let rows: Vec<[S; 4]> = points.iter().map(|&it| padded(it)).collect();
                 candidates.hinted(trees.view(), nearest);
-                candidates.bound(instructions, trees.view(), &padded, nearest);
+                candidates.bound(instructions, (trees.view(), &rows), false, nearest);
                 // The others go to a leaf, each to one of its own, for a tight limit.
                 boxes.clear();
                 for (place, &point) in points.iter().enumerate() {
-                    let at = Bounds {
-                        lo: point,
-                        hi: point,
-                    };
+                    let at = Bounds::at(point);
                     let Nearest { limit, hint, .. } = nearest[place];
                     let is_lost = hint.is_none_or(|hint| limit > FARTHER * hint.distance);
                     if is_lost && gap(&bounds, &at) <= limit {
@@ -82,7 +71,7 @@ pub(crate) fn find_nearest<S: Coordinate>(
                 }
                 reach.go_near(trees, boxes)?;
                 candidates.near(instructions, trees.view(), reach, boxes);
-                candidates.bound(instructions, trees.view(), &padded, nearest);
+                candidates.bound(instructions, (trees.view(), &rows), false, nearest);
                 packets.clear();
                 for (run, all) in runs(points, within) {
                     let farthest = nearest[run.clone()]
@@ -93,20 +82,20 @@ pub(crate) fn find_nearest<S: Coordinate>(
                     }
                     let mut packet = Packet::from(run.start);
                     for place in run {
-                        let (lo, hi) = (points[place], points[place]);
-                        packet.push_near(&Bounds { lo, hi }.to_box(origin), nearest[place].limit);
+                        let at = Bounds::at(points[place]);
+                        packet.push_near(&at.to_box(origin), nearest[place].limit);
                     }
                     packets.push(packet);
                 }
                 reach.meet(trees, packets)?;
                 let view = trees.view();
                 candidates.met(view, reach, packets);
-                candidates.bound(instructions, view, &padded, nearest);
+                candidates.bound(instructions, (view, &rows), false, nearest);
                 candidates.drop_far(nearest);
                 candidates.set_aside(nearest);
-                candidates.bound_closely(instructions, view, &padded, nearest);
+                candidates.bound(instructions, (view, &rows), true, nearest);
                 candidates.drop_far(nearest);
-                candidates.keep_nearest(instructions, view, &padded, nearest);
+                candidates.keep_nearest(instructions, view, &rows, nearest);
                 ControlFlow::Continue(())
             },
         )

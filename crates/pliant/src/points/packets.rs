@@ -39,17 +39,14 @@ impl Packet {
         self.all = self.all.union(its_box);
         self.len += 1;
     }
-}
 
-impl Packet {
     /// Appends the box of the next point, and the distance up to which it meets triangles.
     #[inline]
     pub(super) fn push_near(&mut self, its_box: &Aabb, limit: f64) {
         let limits = self.limits.get_or_insert([0.0; 8]);
         limits[self.len as usize] = at_most(limit * limit * (1.0 + 4.0 * f64::EPSILON));
-        self.each.set(self.len as usize, its_box);
+        self.push(its_box);
         self.all = self.all.union(&its_box.grown((limit as f32).next_up()));
-        self.len += 1;
     }
 }
 
@@ -69,10 +66,7 @@ pub(super) fn runs<S: Coordinate>(
     let mut start = 0;
     std::iter::from_fn(move || {
         let first = *points.get(start)?;
-        let mut all = Bounds {
-            lo: first,
-            hi: first,
-        };
+        let mut all = Bounds::at(first);
         let mut end = start + 1;
         while end < points.len() && end < start + 8 {
             let mut more = all;

@@ -9,7 +9,7 @@ use crate::geometry::Aabb;
 use crate::ids::{BlockId, LeafId, TreeTriangle, WideNodeId};
 use crate::kernels::{
     Coordinate, Instructions, dispatch, lanes_overlapping, least_of, near_mask_each, overlap_mask,
-    promises,
+    priorities,
 };
 use crate::statistics::Statistics;
 use crate::traversal::{Side, View};
@@ -122,7 +122,7 @@ impl Reach {
                 dispatch!(instructions, i => {
                     for &[below, number] in &self.now {
                         let (_, its_box) = &boxes[number as usize];
-                        let lane = least_of(promises(i, &lanes[below as usize], its_box));
+                        let lane = least_of(priorities(i, &lanes[below as usize], its_box));
                         match nodes.wide(WideNodeId(below)).child(lane) {
                             Child::Inner(below) => self.next.push([below.0, number]),
                             Child::Leaf(leaf) => self.leaves.push([leaf.0, number]),
@@ -142,11 +142,11 @@ impl Reach {
     pub(super) fn leaves(&self) -> impl Iterator<Item = (LeafId, u32)> {
         self.leaves
             .iter()
-            .map(|&[leaf, packet]| (LeafId(leaf), packet))
+            .map(|&[leaf, number]| (LeafId(leaf), number))
     }
 
     /// Makes the boxes of the wide nodes of this level that are stale.
-    pub(super) fn make_nodes<S: Coordinate>(&mut self, trees: &mut Trees<S>) -> ControlFlow<()> {
+    fn make_nodes<S: Coordinate>(&mut self, trees: &mut Trees<S>) -> ControlFlow<()> {
         if let Trees::Lazy(side, refit, statistics) = trees {
             for &[node, _] in &self.now {
                 if !side.boxes.is_valid(WideNodeId(node)) {
@@ -162,7 +162,7 @@ impl Reach {
     }
 
     /// Makes the boxes of the triangles in the leaves of this level that are stale.
-    pub(super) fn make_leaves<S: Coordinate>(&mut self, trees: &mut Trees<S>) -> ControlFlow<()> {
+    fn make_leaves<S: Coordinate>(&mut self, trees: &mut Trees<S>) -> ControlFlow<()> {
         if let Trees::Lazy(side, refit, statistics) = trees {
             for &[leaf, _] in &self.now {
                 if !side.boxes.is_leaf_valid(LeafId(leaf)) {

@@ -11,7 +11,6 @@ use crate::error::Error;
 use crate::geometry::{Aabb, Bounds};
 use crate::ids::BodyId;
 use crate::kernels::Coordinate;
-use crate::queries::Removed;
 use crate::threads::Interrupt;
 use crate::traversal::View;
 use pliant_exact::{Axis, Crossing, crossing};
@@ -79,11 +78,10 @@ pub(crate) fn windings<S: Coordinate>(
                 reach.meet(trees, packets)?;
                 let View { read, .. } = trees.view();
                 let shape = read.source.shape();
-                let is_there = |triangle| !read.removed.is_some_and(|it: Removed| it.has(triangle));
                 for met in &reach.met {
                     let axis = axes[met.packet as usize];
                     let first = packets[met.packet as usize].first;
-                    for (lane, triangle) in met.pairs().filter(|&(_, it)| is_there(it)) {
+                    for (lane, triangle) in met.pairs().filter(|&(_, it)| !read.is_gone(it)) {
                         let place = (first + lane) as usize;
                         let point = points[place].map(S::to_f64);
                         let corners = shape.corners(triangle);
@@ -115,8 +113,7 @@ fn to_nearest_side<S: Coordinate>(bounds: &Bounds<S>, all: &Bounds<S>) -> Axis {
 
 /// Box of a ray.
 fn box_of_ray<S: Coordinate>(axis: Axis, point: [S; 3], origin: [f64; 4]) -> Aabb {
-    let (lo, hi) = (point, point);
-    let mut ray = Bounds { lo, hi }.to_box(origin);
+    let mut ray = Bounds::at(point).to_box(origin);
     if axis.ascends {
         ray.hi[axis.number] = f32::INFINITY;
     } else {

@@ -1,7 +1,7 @@
 //! Pair of trees to be descended: of two bodies, of one body, or one tree with itself.
 
 use crate::geometry::Points;
-use crate::ids::{BodyId, NodeId};
+use crate::ids::{BodyId, NodeId, TreeTriangle};
 use crate::kernels::Coordinate;
 use crate::mesh::Order;
 use crate::queries::{CallerIds, LabelPairs, NearElements, Needs, OwnEdges, Removed, Thickness};
@@ -30,6 +30,12 @@ pub(crate) struct Read<'t, S> {
 }
 
 impl<S: Coordinate> Read<'_, S> {
+    /// Whether a triangle was removed from the mesh and is still in the tree.
+    #[inline]
+    pub(crate) fn is_gone(&self, triangle: TreeTriangle) -> bool {
+        self.removed.is_some_and(|removed| removed.has(triangle))
+    }
+
     /// Positions at the end of what boxes hold, for kinds that look along motions.
     pub(super) fn end(&self) -> Option<&Points<S>> {
         self.source.end().map(|end| end.positions)

@@ -15,7 +15,9 @@ pub(super) trait Form {
         Ok(())
     }
     /// Whether the format has room for what lies inside bodies.
-    fn says_inside(&self) -> bool;
+    fn says_inside(&self) -> bool {
+        false
+    }
     /// Writes the end of a check that was completed, or that stopped with an error.
     fn end(
         &mut self,

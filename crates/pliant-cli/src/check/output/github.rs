@@ -38,10 +38,6 @@ impl Form for Github {
         Ok(())
     }
 
-    fn says_inside(&self) -> bool {
-        false
-    }
-
     fn frame(&mut self, out: &mut dyn Write, check: &Check, found: &Found) -> io::Result<()> {
         let adjacent = found.adjacent.as_ref().and_then(|it| it.smallest);
         let smallest = found.smallest.or(adjacent);

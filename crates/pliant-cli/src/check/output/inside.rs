@@ -40,7 +40,7 @@ impl InsideTally {
                 of.frames.1 = found.frame;
             }
             of.components.insert(it.component);
-            of.all_of_body = of.all_of_body.max(it.of);
+            of.all_of_body = of.all_of_body.max(it.components);
         }
         let here: BTreeSet<[u32; 2]> = inside.all.iter().map(|it| [it.body, it.inside]).collect();
         for both in here {

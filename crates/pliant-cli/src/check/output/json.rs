@@ -321,7 +321,8 @@ struct PlaceEntry {
     /// Number of pairs, those that share a vertex too.
     count: usize,
     /// With `--solid`: how far the deepest vertex of the place is inside the other body. It is
-    /// linked with the place by vertices inside; 0 if there is none.
+    /// linked with the place by vertices inside; 0 if there is none. Absent within one file, and
+    /// where none is closed.
     #[serde(skip_serializing_if = "Option::is_none")]
     depth: Option<f64>,
     #[serde(flatten)]

@@ -25,10 +25,6 @@ impl Form for Lines {
         Ok(())
     }
 
-    fn says_inside(&self) -> bool {
-        false
-    }
-
     fn frame(&mut self, out: &mut dyn Write, _: &Check, found: &Found) -> io::Result<()> {
         let frame = found.frame;
         if self.count_only {

@@ -142,9 +142,8 @@ impl<S: Scalar> World<S> {
             let (body, kind) = (Some(a), ErrorKind::SameBody);
             return Err(Error { body, kind });
         }
-        self.state().body(a)?;
-        self.check_closed(b, rule)?;
         let body = self.state().body(a)?;
+        self.check_closed(b, rule)?;
         // Neighbours in this order are neighbours in space.
         let mesh = body.mesh();
         let order = mesh.vertex_order();

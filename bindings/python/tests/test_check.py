@@ -96,6 +96,15 @@ def said_apart(frame: pliant.Frame) -> dict[str, Any]:
     return said | {name: value for name, value in some.items() if value is not None}
 
 
+def said_inside(frames: list[pliant.Frame]) -> list[dict[str, Any]]:
+    """What the program says of each frame: what lies inside, and which bodies are open, where that changes."""
+    said, before = [], ()
+    for frame in frames:
+        said.append({"inside": [list(it) for it in frame.inside]} | ({"not_closed": list(frame.not_closed)} if frame.not_closed != before else {}))
+        before = frame.not_closed
+    return said
+
+
 def test_places(folder: Path) -> None:
     paths = (folder / "cloth.npz", folder / "still.obj")
     assert all(frame.places is None for frame in pliant.check(*paths, itself=True))
@@ -321,12 +330,14 @@ def test_the_program_says_the_same(folder: Path) -> None:
             | ({"welded": body.welded} if body.welded else {})
             for body in checked.bodies
         ]
+        found = list(checked)
         frames = [
             {"frame": frame.frame, "count": frame.count, "pairs": frame.pairs.tolist()}
             | said_apart(frame)
+            | inside
             | ({} if frame.complete else {"complete": False})
             | ({} if frame.kinds is None or not frame.count else {"kinds": frame.kinds._asdict()})
-            for frame in checked
+            for frame, inside in zip(found, said_inside(found), strict=True)
         ]
         # The program says where, too.
         there = [frame.pop("places", []) for frame in said["frames"]]
@@ -474,11 +485,13 @@ def test_the_program_says_the_same_of_pieces(pieces: Path) -> None:
     assert said["bodies"] == [{field: getattr(body, field) for field in fields} for body in checked.bodies]
     for said_of_frame in said["frames"]:
         said_of_frame.pop("places", None)
+    found = list(checked)
     assert said["frames"] == [
         {"frame": frame.frame, "count": frame.count, "left_out": frame.left_out, "pairs": frame.pairs.tolist()}
         | said_apart(frame)
+        | inside
         | ({} if frame.kinds is None or not frame.count else {"kinds": frame.kinds._asdict()})
-        for frame in checked
+        for frame, inside in zip(found, said_inside(found), strict=True)
     ]
 
 

@@ -98,7 +98,8 @@ def said_apart(frame: pliant.Frame) -> dict[str, Any]:
 
 def said_inside(frames: list[pliant.Frame]) -> list[dict[str, Any]]:
     """What the program says of each frame: what lies inside, and which bodies are open, where that changes."""
-    said, before = [], ()
+    said: list[dict[str, Any]] = []
+    before: tuple[int, ...] = ()
     for frame in frames:
         said.append({"inside": [list(it) for it in frame.inside]} | ({"not_closed": list(frame.not_closed)} if frame.not_closed != before else {}))
         before = frame.not_closed
@@ -330,14 +331,14 @@ def test_the_program_says_the_same(folder: Path) -> None:
             | ({"welded": body.welded} if body.welded else {})
             for body in checked.bodies
         ]
-        found = list(checked)
+        all_frames = list(checked)
         frames = [
             {"frame": frame.frame, "count": frame.count, "pairs": frame.pairs.tolist()}
             | said_apart(frame)
             | inside
             | ({} if frame.complete else {"complete": False})
             | ({} if frame.kinds is None or not frame.count else {"kinds": frame.kinds._asdict()})
-            for frame, inside in zip(found, said_inside(found), strict=True)
+            for frame, inside in zip(all_frames, said_inside(all_frames), strict=True)
         ]
         # The program says where, too.
         there = [frame.pop("places", []) for frame in said["frames"]]

@@ -1,14 +1,14 @@
 //! Committed hashes of every answer on each scene, the same for every choice that must not matter.
 //!
 //! The lists are sorted pairs; candidates, near each other and on the way; close pairs and
-//! distances, with their figures; impacts, with their times. A pair that changes is noticed, be it
+//! distances, with their figures; impacts, with their times; closest points. A pair that changes is noticed, be it
 //! on purpose, in another configuration or on another machine. A new choice, such as a number of
 //! threads or an instruction set, is one more line in `axes`.
 
 use crate::common::{TrianglesOf, combinations, covering, covers_every_pair, is_thorough};
 use pliant::{
-    BodyId, BroadPhase, Degree, Instructions, Options, Partition, Scalar, Selection, Update, World,
-    reference,
+    BodyId, BroadPhase, Degree, InsideRule, Instructions, Options, Partition, Scalar, Selection,
+    Update, World, reference,
 };
 use pliant_oracle::subnormals_flushed;
 use pliant_scenes::{Asks, Scene};
@@ -62,6 +62,17 @@ const MEET: [(&str, u64, usize); 5] = [
     ("arms", 0xdec8_b3e9_1017_2297, 83),
     ("gather", 0xcd59_bed8_3da8_83c7, 3093),
     ("cloth", 0x316e_7e60_cb8e_6042, 167),
+];
+
+/// Hash and number of closest points at each step of [`COMMITTED`], with all figures.
+///
+/// The hash includes winding numbers and depths in closed bodies, and what is contained.
+const POINTS: [(&str, u64, usize); 5] = [
+    ("spheres", 0x8cc8_c59d_0880_31c5, 657),
+    ("crowd", 0xae1f_33da_f56a_6b50, 132),
+    ("arms", 0x9b7f_9619_3b15_f84a, 129),
+    ("gather", 0x25c0_b225_4853_ca70, 141),
+    ("cloth", 0xf15d_1281_380f_cc5f, 1083),
 ];
 
 /// The distance of close pairs.
@@ -416,6 +427,60 @@ fn meet_hash<S: Scalar>(
     (fnv.0, count)
 }
 
+/// Hash and number of closest points of all steps. `widen` is exact.
+///
+/// The points are vertices of the first body, a part of the way to the next step.
+fn points_hash<S: Scalar>(
+    case: &Case,
+    scene: &Scene,
+    steps: &[Shapes],
+    widen: fn(f32) -> S,
+) -> (u64, usize) {
+    let (mut world, bodies) = world_of(case, scene, &steps[0], widen);
+    let (mut fnv, mut count) = (Fnv::default(), 0);
+    let far = 16.0 * DISTANCE;
+    for (step, shapes) in steps.iter().enumerate() {
+        for (&body, positions) in bodies.iter().zip(shapes) {
+            world
+                .set_positions(body, &widened(positions, widen))
+                .unwrap();
+        }
+        let end = toward(shapes, &steps[(step + 1) % steps.len()], LONGER_PART);
+        let points = widened(&end[0], widen);
+        let mut found = world.closest_points(&points, None, far).unwrap();
+        for &other in bodies.iter().skip(1).take(OTHERS) {
+            if !world.watertight(other).unwrap().is_closed() {
+                found.extend(world.closest_points(&points, Some(other), far).unwrap());
+                continue;
+            }
+            found.extend(world.signed_closest_points(&points, other, far).unwrap());
+            let windings = world
+                .points_inside(&points, other, InsideRule::NonZero)
+                .unwrap();
+            for located in windings {
+                fnv.add(&[located.winding as u32, located.side as u32]);
+            }
+            let depth = world.depth(bodies[0], other).unwrap();
+            fnv.add_figures(&depth.of_vertices);
+            fnv.add_figures(&[depth.at_most]);
+        }
+        for closest in found.into_iter().flatten() {
+            let feature = u8::from(closest.feature).into();
+            fnv.add(&[closest.body.0, closest.triangle, feature]);
+            fnv.add_figures(&[closest.distance]);
+            fnv.add_figures(&closest.point);
+            fnv.add_figures(&closest.barycentric);
+            fnv.add_figures(&closest.direction.unwrap_or_default());
+            count += 1;
+        }
+        let contained = world.contained(Selection::World).unwrap();
+        for it in contained.all {
+            fnv.add(&[it.body.0, it.component, it.inside.0]);
+        }
+    }
+    (fnv.0, count)
+}
+
 /// Hash and number of pairs of all steps. `widen` is exact.
 fn hash<S: Scalar>(
     case: &Case,
@@ -522,6 +587,7 @@ of_each_scene! {
     what_is_near_is_the_committed: committed_near, near_hash;
     what_is_close_is_the_committed_with_all_figures: committed_close, close_hash;
     what_meets_is_the_committed: committed_meeting, meet_hash;
+    points_find_the_committed: committed_points, points_hash;
 }
 
 fn committed_pairs(name: &str) -> (u64, usize) {
@@ -540,6 +606,11 @@ fn committed_close(name: &str) -> (u64, usize, u64) {
 
 fn committed_meeting(name: &str) -> (u64, usize) {
     let scene = MEET.iter().find(|scene| scene.0 == name).unwrap();
+    (scene.1, scene.2)
+}
+
+fn committed_points(name: &str) -> (u64, usize) {
+    let scene = POINTS.iter().find(|scene| scene.0 == name).unwrap();
     (scene.1, scene.2)
 }
 

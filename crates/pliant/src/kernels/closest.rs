@@ -459,7 +459,9 @@ pub(crate) fn bound_eight_closely<I: Simd, S: Real>(
     pairs: &[FourCorners<S>; 8],
 ) -> [[f64; 8]; 2] {
     let [p, q, r, s, t, u, v, w] = *pairs;
-    let [first, later] = [[p, q, r, s], [t, u, v, w]].map(|four| of_elements(i, false, &four));
+    // Not by `map` of arrays: functions of the standard library have no wider instructions.
+    let first = of_elements(i, false, &[p, q, r, s]);
+    let later = of_elements(i, false, &[t, u, v, w]);
     let mut bounds = [[0.0; 8]; 2];
     for lane in 0..4 {
         bounds[0][lane] = first.least[lane];

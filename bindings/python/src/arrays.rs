@@ -45,7 +45,7 @@ impl<'py> Coordinates<'py> {
     }
 
     /// Reads an (n, 3) array, called `what` in messages.
-    fn of_array(array: &Bound<'py, PyUntypedArray>, what: &str) -> Result<Self> {
+    pub(crate) fn of_array(array: &Bound<'py, PyUntypedArray>, what: &str) -> Result<Self> {
         let dtype = array.dtype();
         match (dtype.kind(), dtype.itemsize()) {
             (b'f', 4) => typed(array).map(Self::F32),
@@ -129,6 +129,22 @@ impl<'py> CopiedFaces<'py> {
 pub(crate) fn points<'py>(given: &Any<'py>) -> Result<CopiedCoordinates<'py>> {
     let array = as_array(given, "points", "k")?;
     CopiedCoordinates::anew(Coordinates::of_array(&array, "points")?)
+}
+
+/// Shapes of a body, frame after frame: an array (frames, n, 3), which anybody may write to.
+pub(crate) fn frames<'py>(given: &Any<'py>) -> Result<Bound<'py, PyUntypedArray>> {
+    refuse_masks(given, "positions")?;
+    let array = as_numpy(given, "positions")?;
+    if let [_, _, 3] = array.shape() {
+        return Ok(array);
+    }
+    let shape = array.getattr("shape")?;
+    let hint = match array.shape() {
+        [_, 3] => ": one frame; give positions[None], or set_positions",
+        _ => "",
+    };
+    Err(refused!(BadArray:
+        "positions have shape {shape}; they must be (frames, n, 3){hint}"))
 }
 
 /// Copied mesh.

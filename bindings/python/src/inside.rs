@@ -4,6 +4,7 @@ use crate::answers::{Any, Column, Rows, named};
 use crate::error::Result;
 use crate::options;
 use crate::state::would_be_rounded;
+use numpy::PyArrayMethods;
 use pliant::{ClosestPoint, Containment, Depth, InsideRule, Located, Scalar, Side, Watertight};
 use pliant_check::{double, single};
 use pliant_io::Positions;
@@ -43,16 +44,22 @@ pub(crate) fn watertight(py: Python<'_>, found: Watertight) -> PyResult<Any<'_>>
         open = Rows(found.open), turned = Rows(found.turned), doubled = Rows(found.doubled))
 }
 
-/// A `Located` of Python.
-pub(crate) fn located<'py>(py: Python<'py>, found: &[Located]) -> PyResult<Any<'py>> {
+/// A `Located` of Python, of arrays of this shape.
+pub(crate) fn located<'py>(
+    py: Python<'py>,
+    found: &[Located],
+    shape: &[usize],
+) -> PyResult<Any<'py>> {
     let side = |it: &Located| match it.side {
-        Side::Outside => -1,
+        Side::Outside => -1_i8,
         Side::On => 0,
         Side::Inside => 1,
     };
     named!(py, "Located":
-        sides = Column(found.iter().map(side).collect::<Vec<i8>>()),
-        windings = Column(found.iter().map(|it| it.winding).collect::<Vec<i32>>()))
+        sides = Column(found.iter().map(side).collect()).into_pyobject(py)?.reshape(shape)?,
+        windings = Column(found.iter().map(|it| it.winding).collect())
+            .into_pyobject(py)?
+            .reshape(shape)?)
 }
 
 /// A `Containment` of Python.

@@ -17,6 +17,7 @@
 //! | `pickled.rs` | the state that pickle writes |
 //! | `inside.rs` | points of callers and closed bodies: rules, and answers |
 //! | `queries/mod.rs` | the part that all kinds of queries share |
+//! | `queries/frames.rs` | one question about many shapes, on several threads |
 //! | `queries/pairs.rs` | `Query`: intersections, crossing edges, and candidates |
 //! | `queries/close.rs` | `CloseQuery`: close pairs, with distance, direction and closest points |
 //! | `queries/contacts.rs` | `ContactQuery`: which triangles intersect, and how |

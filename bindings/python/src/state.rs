@@ -65,6 +65,10 @@ impl State {
         }
     }
 
+    pub(crate) fn options(&self) -> &Options {
+        &self.options
+    }
+
     /// Copies the world.
     pub(crate) fn another(&self) -> Self {
         Self {

@@ -10,6 +10,7 @@ use crate::pickled::{self, Written};
 use crate::queries::Hit;
 use crate::queries::close::{Close, CloseQuery};
 use crate::queries::contacts::{ContactQuery, Contacts, Only};
+use crate::queries::frames::{Frames, each_frame};
 use crate::queries::impacts::{ImpactQuery, Impacts};
 use crate::queries::pairs::{Pairs, Query};
 use crate::selection::{Body, Selection};
@@ -50,6 +51,7 @@ use std::borrow::Cow;
 ///   nearest_body, clearance
 /// - closed bodies: watertight, points_inside, inside, contained, depth
 /// - points: points_inside, closest_points, signed_closest_points
+/// - many shapes in one call: Query.of_frames, inside
 /// - motion: set_motion, end_positions, vertex_triangle_impacts, edge_edge_impacts, first_impact,
 ///   free_step, collision_free_step, advance_motion, finish_motion
 /// - change of a mesh: set_mesh, edit, apply, live_triangles, live_vertices, mesh_revision,
@@ -1256,21 +1258,44 @@ impl World {
         let found = search_at!(self, py, points, (world, points) => {
             world.points_inside(points, body.0, rule)
         })?;
-        Ok(inside::located(py, &found)?)
+        Ok(inside::located(py, &found, &[found.len()])?)
     }
 
     /// Whether each vertex of body a is inside body b, a closed one: a Located of (n,) arrays.
     ///
     /// As points_inside says it of their positions, with the same rules. Empty vertex numbers are
-    /// outside.
+    /// outside. With frames, shapes of bodies as Query.of_frames takes them, arrays are (frames, n)
+    /// and threads share the frames.
     ///
     /// Raises pliant.Error: NoSuchBody, SameBody if a is b, NotClosed if b has no inside, BadOption
-    /// for another rule.
-    #[pyo3(signature = (a, b, rule="nonzero"))]
-    fn inside<'py>(&self, py: Python<'py>, a: Body, b: Body, rule: &str) -> Answer<'py> {
+    /// for another rule. With frames also as Query.of_frames.
+    #[pyo3(signature = (a, b, rule="nonzero", *, frames=None, threads=Threads::Count(1)),
+        text_signature = "($self, a, b, rule=\"nonzero\", *, frames=None, threads=1)")]
+    fn inside<'py>(
+        &self,
+        py: Python<'py>,
+        a: Body,
+        b: Body,
+        rule: &str,
+        frames: Option<&Any<'py>>,
+        threads: Threads,
+    ) -> Answer<'py> {
         let rule = inside::rule(rule)?;
-        let found = search!(self, py, world => world.inside(a.0, b.0, rule))?;
-        Ok(inside::located(py, &found)?)
+        let Some(frames) = frames else {
+            let found = search!(self, py, world => world.inside(a.0, b.0, rule))?;
+            return Ok(inside::located(py, &found, &[found.len()])?);
+        };
+        let frames = Frames::of(&self.state, frames, threads)?;
+        let found = each_frame(py, &self.state, &frames, |state, question| {
+            with_world!(&mut state.world, world => {
+                Ok(world.interruptible(question).inside(a.0, b.0, rule)?)
+            })
+        })?;
+        let vertices = self.state.with(py, |state| {
+            Ok(with_world!(&state.world, world => world.vertex_count(a.0))?)
+        })?;
+        let shape = [frames.count(), vertices];
+        Ok(inside::located(py, &found.concat(), &shape)?)
     }
 
     /// Components of bodies that lie inside other bodies: a Containment.

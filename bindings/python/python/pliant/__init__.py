@@ -12,6 +12,7 @@ A hit is a row of four numbers, uint32: body, triangle, body, triangle. Rows are
   Selection                 which bodies a question is about
   self_intersection_pairs   one mesh, in one call
   intersection_pairs        two meshes, in one call
+  self_intersections, intersections    many shapes of one mesh, or of two, in one call
   vertex_triangle_impacts, edge_edge_impacts    when single pairs of moving elements meet
   vertex_triangle_distances, edge_edge_distances    how far single pairs are apart
   triangle_contacts         whether and how single pairs of triangles intersect
@@ -32,6 +33,7 @@ help(pliant.World) lists all questions, with shapes, dtypes, errors and cost.
 """
 
 from . import derivatives, reference
+from ._frames import intersections, self_intersections
 from ._pliant import (
     Changes,
     Check,
@@ -77,11 +79,12 @@ from ._types import (
     Error,
     FeatureKind,
     FeaturePairs,
-    HitRows,
     FirstImpact,
     Frame,
+    FrameHits,
     FreeStep,
     Fused,
+    HitRows,
     Impact,
     Impacts,
     Interval,
@@ -129,11 +132,12 @@ __all__ = [
     "Error",
     "FeatureKind",
     "FeaturePairs",
-    "HitRows",
     "FirstImpact",
     "Frame",
+    "FrameHits",
     "FreeStep",
     "Fused",
+    "HitRows",
     "Impact",
     "ImpactQuery",
     "Impacts",
@@ -164,9 +168,11 @@ __all__ = [
     "edge_edge_impacts",
     "feature_pairs",
     "intersection_pairs",
+    "intersections",
     "reference",
     "segments",
     "self_intersection_pairs",
+    "self_intersections",
     "triangle_contacts",
     "vertex_triangle_distances",
     "vertex_triangle_impacts",

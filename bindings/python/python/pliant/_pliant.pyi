@@ -38,6 +38,7 @@ from ._types import (
     EdgeEdge,
     Edited,
     FeaturePairs,
+    FrameHits,
     HitRows,
     Frame,
     FreeStep,
@@ -99,6 +100,7 @@ _Corner: TypeAlias = Sequence[float] | NDArray[np.floating[Any]]
 _Partition: TypeAlias = Literal["centre", "mean", "balanced", "connectivity"]
 _Update: TypeAlias = Literal["bottom-up", "top-down", "hybrid"]
 _Name: TypeAlias = str | PathLike[str] | int
+_Frames: TypeAlias = Mapping[int, _Array] | Iterable[tuple[SupportsIndex, _Array]]
 _Rule: TypeAlias = Literal["nonzero", "positive", "parity"]
 _Broad: TypeAlias = Literal["brute", "sweep", "tree", "auto"]
 
@@ -303,7 +305,10 @@ class World:
         """Edges at which a body is not a closed surface, a Watertight: open, turned, doubled."""
     def points_inside(self, points: _Array, body: SupportsIndex, rule: _Rule = "nonzero") -> Located:
         """Whether points are inside a closed body, outside, or on its surface: a Located."""
-    def inside(self, a: SupportsIndex, b: SupportsIndex, rule: _Rule = "nonzero") -> Located:
+    def inside(
+        self, a: SupportsIndex, b: SupportsIndex, rule: _Rule = "nonzero", *,
+        frames: _Frames | None = None, threads: int | Literal["all"] = 1,
+    ) -> Located:
         """Whether each vertex of body a is inside body b, a closed one: a Located of (n,) arrays."""
     def contained(self, of: Selection = ...) -> Containment:
         """Components of bodies that lie inside other bodies: a Containment."""
@@ -356,6 +361,20 @@ class CloseQuery:
         """Calls visit(close) with a ClosePairs of some at a time, until it returns true."""
     def prepare(self) -> None:
         """Does early what the query would do first, and asks nothing: see Query.prepare."""
+    @overload
+    def of_frames(
+        self, frames: _Frames, *, answer: Literal["rows", "first"] = "rows",
+        threads: int | Literal["all"] = 1,
+    ) -> FrameHits:
+        """Asks about many shapes of bodies, frame by frame, in one call: see Query.of_frames."""
+    @overload
+    def of_frames(
+        self, frames: _Frames, *, answer: Literal["counts"], threads: int | Literal["all"] = 1
+    ) -> NDArray[np.int64]: ...
+    @overload
+    def of_frames(
+        self, frames: _Frames, *, answer: Literal["any"], threads: int | Literal["all"] = 1
+    ) -> NDArray[np.bool_]: ...
 
 @final
 class Edit:
@@ -394,6 +413,20 @@ class ContactQuery:
         """Calls visit(contacts) with a Contacts of some at a time, until it returns true."""
     def prepare(self) -> None:
         """Does early what the query would do first, and asks nothing: see Query.prepare."""
+    @overload
+    def of_frames(
+        self, frames: _Frames, *, answer: Literal["rows", "first"] = "rows",
+        threads: int | Literal["all"] = 1,
+    ) -> FrameHits:
+        """Asks about many shapes of bodies, frame by frame, in one call: see Query.of_frames."""
+    @overload
+    def of_frames(
+        self, frames: _Frames, *, answer: Literal["counts"], threads: int | Literal["all"] = 1
+    ) -> NDArray[np.int64]: ...
+    @overload
+    def of_frames(
+        self, frames: _Frames, *, answer: Literal["any"], threads: int | Literal["all"] = 1
+    ) -> NDArray[np.bool_]: ...
 
 @final
 class ImpactQuery:
@@ -442,6 +475,20 @@ class Query(Generic[_Hit]):
         """Calls visit(rows) with some hits at a time, (k, 4) uint32, until it returns true."""
     def prepare(self) -> None:
         """Does early what the query would do first, and asks nothing."""
+    @overload
+    def of_frames(
+        self, frames: _Frames, *, answer: Literal["rows", "first"] = "rows",
+        threads: int | Literal["all"] = 1,
+    ) -> FrameHits:
+        """Asks about many shapes of bodies, frame by frame, in one call."""
+    @overload
+    def of_frames(
+        self, frames: _Frames, *, answer: Literal["counts"], threads: int | Literal["all"] = 1
+    ) -> NDArray[np.int64]: ...
+    @overload
+    def of_frames(
+        self, frames: _Frames, *, answer: Literal["any"], threads: int | Literal["all"] = 1
+    ) -> NDArray[np.bool_]: ...
 
 @final
 class Check:

@@ -144,6 +144,32 @@ class HitRows(NamedTuple):
         return self.places[self.offsets[row] : self.offsets[row + 1]]
 
 
+class FrameHits(NamedTuple):
+    """Hits of many frames, one after the other: what Query.of_frames returns.
+
+    Frame i has the hits from offsets[i] to offsets[i + 1].
+    """
+
+    #: Hits of all frames, as all() returns them: an array, ClosePairs or Contacts.
+    hits: Any
+    #: (frames + 1,) where the hits of each frame begin, and their end.
+    offsets: NDArray[np.int64]
+
+    @property
+    def counts(self) -> NDArray[np.int64]:
+        """(frames,) numbers of hits."""
+        return np.diff(self.offsets)
+
+    def frame(self, number: SupportsIndex) -> Any:
+        """Hits of a frame, counted from 0, or from -1 at the end. Views, not copies."""
+        count = len(self.offsets) - 1
+        place = range(count)[index(number)]
+        its = slice(self.offsets[place], self.offsets[place + 1])
+        if isinstance(self.hits, np.ndarray):
+            return self.hits[its]
+        return type(self.hits)(*(column[its] for column in self.hits))
+
+
 class Pair(NamedTuple):
     """Two triangles that intersect, of two bodies or of one: a row of Query.all.
 
@@ -310,17 +336,20 @@ class Watertight(NamedTuple):
 
 
 class Located(NamedTuple):
-    """Where points are: inside a closed body, outside, or on its surface: see points_inside."""
+    """Where points are: inside a closed body, outside, or on its surface: see points_inside.
+
+    Arrays have an entry for each point, (k,); of World.inside with frames they are
+    (frames, n).
+    """
 
     sides: NDArray[np.int8]
-    """(k,): 1 inside, 0 on the surface, -1 outside."""
+    """1 inside, 0 on the surface, -1 outside."""
     windings: NDArray[np.int32]
-    """(k,): how often the surface winds round each; 0 on it. With rule="parity" 1 inside, else
-    0."""
+    """How often the surface winds round each; 0 on it. With rule="parity" 1 inside, else 0."""
 
     @property
     def is_inside(self) -> NDArray[np.bool_]:
-        """(k,): whether each is inside, and not on the surface."""
+        """Whether each is inside, and not on the surface."""
         return np.greater(self.sides, 0)
 
 
@@ -835,7 +864,7 @@ class OpenMesh(Protocol):
 
 _PUBLIC = (
     *(Watertight, Located, Containment, ClosestPoints, Depth),
-    *(Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, FeatureKind, FeaturePairs, PairDistances, HitRows, Contact, ContactKind, Contacts),
+    *(Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, FeatureKind, FeaturePairs, PairDistances, HitRows, FrameHits, Contact, ContactKind, Contacts),
     *(CrossingEdge, Segments, CurveEnd, Curves, Changed, Edited, Fused, Piece, Impact, Impacts, FreeStep, TreeBoxes, TreeShape, Statistics),
     *(Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Adjacent, CrossingEdges, Frame, Mesh, OpenMesh),
 )

@@ -2,6 +2,7 @@
 
 use crate::answers::{Any, Column, Rows, class};
 use crate::error::Result;
+use crate::options::Threads;
 use crate::queries::{Hit, Kind, Want, Wanted, query_class};
 use pliant::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, Scalar};
 use pyo3::prelude::*;
@@ -121,4 +122,17 @@ query_class! {
 
     /// Does early what the query would do first, and asks nothing: see Query.prepare.
     prepare;
+
+    /// Asks about many shapes of bodies, frame by frame, in one call: see Query.of_frames.
+    #[pyo3(signature = (frames, *, answer="rows", threads=Threads::Count(1)),
+        text_signature = "($self, frames, *, answer=\"rows\", threads=1)")]
+    fn of_frames<'py>(
+        &self,
+        py: Python<'py>,
+        frames: &Any<'py>,
+        answer: &str,
+        threads: Threads,
+    ) -> Result<Any<'py>> {
+        self.0.of_frames(py, frames, answer, threads)
+    }
 }

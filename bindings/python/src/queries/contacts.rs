@@ -5,6 +5,7 @@
 use crate::answers::{Any, Column, Rows, class};
 use crate::arrays::expected;
 use crate::error::Result;
+use crate::options::Threads;
 use crate::queries::{Hit, Kind, Want, Wanted, query_class};
 use pliant::{AdjacentContact, Contact, ContactKind, Scalar};
 use pyo3::exceptions::PyValueError;
@@ -141,4 +142,17 @@ query_class! {
 
     /// Does early what the query would do first, and asks nothing: see Query.prepare.
     prepare;
+
+    /// Asks about many shapes of bodies, frame by frame, in one call: see Query.of_frames.
+    #[pyo3(signature = (frames, *, answer="rows", threads=Threads::Count(1)),
+        text_signature = "($self, frames, *, answer=\"rows\", threads=1)")]
+    fn of_frames<'py>(
+        &self,
+        py: Python<'py>,
+        frames: &Any<'py>,
+        answer: &str,
+        threads: Threads,
+    ) -> Result<Any<'py>> {
+        self.0.of_frames(py, frames, answer, threads)
+    }
 }

@@ -18,6 +18,7 @@ use std::ops::ControlFlow;
 
 pub(crate) mod close;
 pub(crate) mod contacts;
+pub(crate) mod frames;
 pub(crate) mod impacts;
 pub(crate) mod pairs;
 

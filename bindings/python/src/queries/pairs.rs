@@ -3,6 +3,7 @@
 
 use crate::answers::{Any, class, copy_of_rows};
 use crate::error::Result;
+use crate::options::Threads;
 use crate::queries::{Each, Hit, Kind, Want, Wanted, query_class};
 use numpy::PyArray2;
 use pliant::{CrossingEdge, EdgeEdge, Pair, Scalar, VertexTriangle};
@@ -134,5 +135,38 @@ query_class! {
     /// where there are many.
     fn visit(&self, visit: &Any<'_>) -> Result<bool> {
         self.0.ask(visit.py(), Each(visit.as_unbound()))
+    }
+
+    /// Asks about many shapes of bodies, frame by frame, in one call.
+    ///
+    ///     found = world.intersections().of_frames({cloth: positions}, threads="all")
+    ///     found.counts                # (frames,) hits of each
+    ///     found.frame(7)              # hits of frame 7, as all() returns them
+    ///
+    /// frames is a dict of positions (frames, n, 3) by bodies, or pairs of a body and its
+    /// positions. Other bodies stay as they are, and so does the world itself. Each thread asks a
+    /// copy of the world, whose trees are kept from frame to frame. An answer depends on its frame
+    /// alone. answer says how much is wanted of each frame:
+    ///
+    /// - "rows": all hits, sorted, frame by frame: a FrameHits
+    /// - "first": of each frame that has hits the first of these: a FrameHits
+    /// - "counts": numbers of hits, (frames,) int64
+    /// - "any": whether there is one, (frames,) bool; the cheapest
+    ///
+    /// Raises pliant.Error, about the first frame that is refused, which is its attribute frame:
+    /// the kinds of all() and World.set_positions. BadOption for threads where the world has more
+    /// than one of its own. Nothing is returned of the other frames then.
+    ///
+    /// Cost: copies of the world, one a thread; then for each frame as set_positions and all().
+    #[pyo3(signature = (frames, *, answer="rows", threads=Threads::Count(1)),
+        text_signature = "($self, frames, *, answer=\"rows\", threads=1)")]
+    fn of_frames<'py>(
+        &self,
+        py: Python<'py>,
+        frames: &Any<'py>,
+        answer: &str,
+        threads: Threads,
+    ) -> Result<Any<'py>> {
+        self.0.of_frames(py, frames, answer, threads)
     }
 }

@@ -1,9 +1,9 @@
 //! Committed hashes of every answer on each scene, the same for every choice that must not matter.
 //!
-//! The lists are sorted pairs; candidates, near each other and on the way; close pairs and
-//! distances, with their figures; impacts, with their times; closest points. A pair that changes is noticed, be it
-//! on purpose, in another configuration or on another machine. A new choice, such as a number of
-//! threads or an instruction set, is one more line in `axes`.
+//! The lists are sorted pairs; candidates, near each other and on the way; close pairs, distances
+//! and impacts, with all figures. Closest points are in the order of the points. A pair that
+//! changes is noticed, be it on purpose, in another configuration or on another machine. A new
+//! choice, such as a number of threads or an instruction set, is one more line in `axes`.
 
 use crate::common::{TrianglesOf, combinations, covering, covers_every_pair, is_thorough};
 use pliant::{

@@ -379,6 +379,12 @@ impl Check {
         (self.lives.count(), self.lives.largest())
     }
 
+    /// Source and vertex of all vertices of places in the frame checked last, and the number of the
+    /// place, if [`Settings::places`] is set. No vertex is of two places.
+    pub fn vertices_of_places(&self) -> &[([u32; 2], usize)] {
+        self.places.vertices()
+    }
+
     /// Whether bodies are checked against themselves.
     pub fn checks_itself(&self) -> bool {
         self.asked.itself

@@ -8,6 +8,8 @@ import { join } from 'node:path';
 import { after, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { bodyOf, boxAround, contactShown, cornersOf, partOf, unpack } from './src/data.js';
+import { Depths } from './src/depths.js';
+import { SOLIDS, writeSolids } from './test-solids.js';
 
 const program = process.env.PLIANT ?? fileURLToPath(new URL('../target/release/pliant', import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), 'pliant-data-'));
@@ -79,6 +81,29 @@ test('a group that was not asked for is the rest', async () => {
   const { bodies, parts } = await read('c.html');
   assert.deepEqual(parts.map(({ number, name }) => [number, name]), [[0, 'tents_0.obj#two'], [1, 'square.obj'], [-1, 'tents_0.obj, the rest']]);
   assert.deepEqual([0, 1].map((triangle) => partOf(bodies[0], triangle).number), [-1, 0]);
+});
+
+test('triangles of places with a depth have it, others have none', async () => {
+  writeSolids(folder);
+  const said = spawnSync(program, ['check', ...SOLIDS, '--solid', '--report', 'd.html', '--format', 'json'], { cwd: folder, encoding: 'utf8' });
+  assert.equal(said.status, 1, said.stderr);
+  const { bodies, depths, frames } = await read('d.html');
+  assert.deepEqual([depths.least, depths.most], [0.5, 1.5]);
+  assert.equal(bodies.length, SOLIDS.length + 1, 'one of them has two meshes');
+  JSON.parse(said.stdout).frames.forEach(({ pairs, places }, frame) => {
+    const depthOf = (body, other) => places.find((place) => place.bodies.map(({ body }) => body).join() === [body, other].join()).depth;
+    const expected = new Map(pairs.flatMap(([a, one, b, other]) => [[`${a} ${one}`, depthOf(a, b)], [`${b} ${other}`, depthOf(a, b)]]));
+    assert.deepEqual([...new Set(expected.values())].sort(), [frame ? 1 : 0.5, 1.5, undefined]);
+    assert.equal(expected.size, frames[frame].red.length);
+    for (const row of frames[frame].red) {
+      const { body, triangle } = bodyOf(bodies, row);
+      assert.equal(frames[frame].deep.get(row), expected.get(`${bodies[body].number} ${triangle}`));
+    }
+    assert.deepEqual(frames[frame].places.map(({ depth }) => depth ?? undefined), places.map(({ depth }) => depth));
+  });
+  // Light for the shallow, dark for the deep, and one colour where there is one depth.
+  assert.deepEqual([0.5, 1.5].map((depth) => depths.colour(depth)), ['rgb(253,231,37)', 'rgb(59,82,139)']);
+  assert.equal(new Depths([2, 2]).colour(2), 'rgb(59,82,139)');
 });
 
 test('a sequence of polygons and a body that stands still', async () => {

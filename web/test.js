@@ -11,6 +11,7 @@ import { dirname, join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { chromium } from 'playwright-core';
+import { SOLIDS, writeSolids } from './test-solids.js';
 
 const root = fileURLToPath(new URL('..', import.meta.url));
 const program = process.env.PLIANT ?? join(root, 'target/release/pliant');
@@ -89,10 +90,12 @@ async function lookAt(png) {
     const at = (x, y) => data.subarray(4 * (y * image.width + x), 4 * (y * image.width + x) + 3);
     const kinds = {
       red: ([r, g, b]) => r > 110 && r > 2 * g && r > 2 * b,
+      shallow: ([r, g, b]) => r > 110 && g > 110 && r > 2 * b,
+      deep: ([r, g, b]) => b > 60 && b > 1.6 * r && b > 1.3 * g,
       // Calm colours, neither paper nor ink.
       plain: ([r, g, b]) => Math.max(r, g, b) < 235 && Math.min(r, g, b) > 70 && Math.max(r, g, b) < 1.7 * Math.min(r, g, b) && Math.abs(r - b) > 12,
     };
-    const [found, count] = [{}, { red: 0, plain: 0, edge: 0 }];
+    const [found, count] = [{}, { red: 0, shallow: 0, deep: 0, plain: 0, edge: 0 }];
     for (let x = 0; x < image.width; x++) count.edge += [2, image.height - 3].filter((y) => kinds.plain(at(x, y))).length;
     for (let y = 0; y < image.height; y++) count.edge += [2, image.width - 3].filter((x) => kinds.plain(at(x, y))).length;
     for (let y = 3; y < image.height - 3; y++) {
@@ -765,6 +768,45 @@ test('what is close has a colour of its own, and lines to what it is close to', 
   function pick({ number, pairs, red, near, gaps }) {
     return { number, pairs, red, near, gaps };
   }
+});
+
+test('places of solids have the colours of their depths, in the picture and in the list', { skip }, async () => {
+  writeSolids(folder);
+  pliant('check', ...SOLIDS, '--solid', '--report', 'solid.html', '--force');
+  for (const colorScheme of ['light', 'dark']) {
+    const { page, pixels, close } = await open('solid.html', { colorScheme });
+    const listed = () => page.locator('.places button b').evaluateAll((all) => all.map((b) => [b.textContent.replace(/^Place \d+/, ''), b.querySelector('.chip')?.style.background]));
+    await page.keyboard.press('Home');
+    await page.keyboard.press('r');
+    assert.equal(await page.locator('.scale').innerText(), 'Depth 0.5\n1.5');
+    const deep = [', 1.5 deep', 'rgb(59, 82, 139)'];
+    assert.deepEqual((await listed()).sort(), [['', undefined], [', 0.5 deep', 'rgb(253, 231, 37)'], deep]);
+    assert.equal(await page.locator('.status').textContent(), 'frame 0: 25 pairs, 22 triangles');
+    assert.equal(await page.locator('.legend li').last().innerText(), 'intersects, without a depth');
+    assert.match(await page.locator('.notes').textContent(), /^The colour of a place is its depth: /);
+    const before = (await pixels()).count;
+    for (const kind of ['red', 'shallow']) assert.ok(before[kind] > 100, `${kind}: ${JSON.stringify(before)}`);
+    await page.screenshot({ path: join(shots, `solid-${colorScheme}.png`) });
+    // Deeper, it has another colour; what is as deep as before has not.
+    await page.keyboard.press('ArrowRight');
+    assert.deepEqual((await listed()).sort(), [['', undefined], [', 1 deep', 'rgb(40, 174, 128)'], deep]);
+    assert.equal((await pixels()).count.shallow, 0);
+    await page.locator('.places button', { hasText: '1.5 deep' }).click();
+    await page.waitForFunction(() => document.querySelector('.stage').dataset.flies === 'no');
+    assert.ok((await pixels()).count.deep > 100);
+    await page.screenshot({ path: join(shots, `solid-deep-${colorScheme}.png`) });
+    await close();
+  }
+  pliant('check', ...SOLIDS, '--report', 'solid.html', '--force');
+  const { page, pixels, close } = await open('solid.html');
+  await page.keyboard.press('Home');
+  await page.keyboard.press('r');
+  assert.deepEqual([await page.locator('.scale').isVisible(), await page.locator('.places .chip').count()], [false, 0]);
+  assert.equal(await page.locator('.status').textContent(), 'frame 0: 25 pairs, 22 red triangles');
+  assert.equal(await page.locator('.legend li').last().innerText(), 'intersects');
+  const { red, shallow, deep } = (await pixels()).count;
+  assert.deepEqual([red > 100, shallow, deep], [true, 0, 0]);
+  await close();
 });
 
 test('what jumps through between two frames is shown at the moment of contact', { skip }, async () => {

@@ -23,6 +23,7 @@ export class BodyList {
   /** A body whose mesh changes is one in this list, one that is split as many as it has parts. */
   load(motion) {
     this.all = motion.parts;
+    this.meansHit = motion.depths ? 'intersects, without a depth' : 'intersects';
     const hit = new Set();
     for (const frame of motion.frames) {
       let at = 0;
@@ -85,7 +86,7 @@ export class BodyList {
       return element('li', { className: 'hint' }, chip, said);
     };
     const near = this.within === null ? [] : [meaning(this.near, `within ${this.within}`)];
-    this.list.replaceChildren(...listed, meaning(this.hit, 'intersects'), ...near);
+    this.list.replaceChildren(...listed, meaning(this.hit, this.meansHit), ...near);
     this.everybody.hidden = this.hidden.size === 0;
     if (had !== undefined) this.list.querySelector(`[data-body="${+had}"]`)?.focus();
   }

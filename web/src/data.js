@@ -1,5 +1,7 @@
 // What pliant packed, unpacked: the counterpart of crates/pliant-report/src/pack.rs.
 
+import { Depths } from './depths.js';
+
 /** Reads numbers one after the other. */
 class Reader {
   constructor(bytes) {
@@ -53,6 +55,12 @@ class Reader {
       triangles: [a[pair], b[pair]],
       ends: ends.map(([on, low, high]) => ({ of: on[i] < 6 ? 0 : 1, on: on[i] % 6, part: (low[i] | (high[i] << 8)) / 65535 })),
     }));
+  }
+
+  /** Triangles of places that have a depth, with that depth. */
+  deep(count) {
+    const triangles = this.words(count);
+    return new Map(Array.from(triangles, (triangle) => [triangle, this.float()]));
   }
 
   /** Positions in steps: all x, all y, all z; as differences to one of three predictions. */
@@ -120,6 +128,7 @@ export async function unpack(facts, base64, colours) {
     const near = reader.words(reader.word());
     const gaps = reader.gaps(reader.word());
     const lines = reader.lines(reader.word(), arePairs ? { a, b } : undefined);
+    const deep = facts.depths ? reader.deep(reader.word()) : new Map();
     const made = reader.slice(Math.ceil(bits / 8));
     const moment = facts.moments[at];
     const number = facts.numbers[place];
@@ -136,14 +145,16 @@ export async function unpack(facts, base64, colours) {
       near,
       gaps,
       lines,
+      deep,
       made,
-      places: facts.places[at].map(([number, count, lower, upper, label]) => ({ number, count, lower, upper, label })),
+      places: facts.places[at].map(([number, count, lower, upper, label, depth]) => ({ number, count, lower, upper, label, depth })),
       placeCount: facts.placeCounts[at],
     };
   });
   // What meets on the way to the next frame, behind the frame that it begins in.
   frames.forEach((frame, at) => frame.moment && (frame.before = frames[at - 1]));
-  return { bodies, parts: allParts(bodies), frames, numbers: facts.numbers, pairs: facts.pairs };
+  const depths = facts.depths && new Depths(facts.depths);
+  return { bodies, parts: allParts(bodies), frames, depths, numbers: facts.numbers, pairs: facts.pairs };
 }
 
 /** Whether anything intersects in a frame, or meets in a moment between two. */
@@ -232,7 +243,7 @@ export function contactShown(bodies, frame, nth) {
     gaps: pairs.length > 0 ? lines.map((points) => ({ triangles: pairs[0], points: points.flat() })) : [],
     lines: [],
     // Places of frames count from 0.
-    places: [{ number: -1 - nth, count: 1, lower, upper, label }],
+    places: [{ number: -1 - nth, count: 1, lower, upper, label, depth: null }],
     placeCount: moment.count ?? 1,
   };
 }

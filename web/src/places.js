@@ -1,6 +1,7 @@
 // The places of the frame, most pairs first, or what meets on the way to the next, the earliest first: a click goes there.
 
 import { contactLabel } from './data.js';
+import { said } from './depths.js';
 import { counted, element, grouped } from './dom.js';
 
 /** More are counted, not listed. */
@@ -12,12 +13,16 @@ export class PlaceList {
     this.chosen = chosen;
     this.title = element('h2', {}, 'Places');
     this.list = element('ol', { className: 'places' });
-    this.box = element('section', { className: 'panel', 'aria-label': 'Places' }, this.title, this.list);
+    this.scale = element('p', { className: 'hint scale', title: 'The least and the largest depth of a place in all frames' });
+    this.box = element('section', { className: 'panel', 'aria-label': 'Places' }, this.title, this.scale, this.list);
   }
 
   /** Which frames that are shown have each place. */
   load(motion) {
     this.bodies = motion.bodies;
+    this.depths = motion.depths;
+    this.scale.hidden = !this.depths;
+    this.scale.replaceChildren(...(this.depths?.legend() ?? []));
     this.listed = null;
     this.lives = new Map();
     for (const { number: frame, places } of motion.frames.filter(({ moment }) => !moment)) {
@@ -52,24 +57,35 @@ export class PlaceList {
   }
 
   ofFrame({ places, placeCount }, along) {
-    const items = places.slice(0, LISTED).map(({ number, count, label }) => {
+    const items = places.slice(0, LISTED).map(({ number, count, label, depth }) => {
       const [first, last] = this.lives.get(number);
-      return this.item(number, `Place ${number}`, counted(count, 'pair'), short(label), first === last ? `${along} ${first}` : `${along}s ${first} to ${last}`);
+      return this.item(number, this.named(`Place ${number}`, depth), counted(count, 'pair'), short(label), first === last ? `${along} ${first}` : `${along}s ${first} to ${last}`);
     });
     return [...items, ...more(placeCount - items.length)];
   }
 
+  /** Behind the name of a place its depth, if it has one, and in front of it the colour of that. */
+  named(name, depth) {
+    if (depth === null) return [name];
+    const chip = element('span', { className: 'chip' });
+    chip.style.background = this.depths.colour(depth);
+    return [chip, name, element('small', {}, `, ${said(depth)} deep`)];
+  }
+
   ofMoment(frame) {
     const { contacts, count } = frame.moment;
-    const items = contacts.map((contact, nth) => this.item(-1 - nth, `After ${+contact[0].toPrecision(4)}`, '', contactLabel(this.bodies, frame, contact)));
+    const items = contacts.map((contact, nth) => this.item(-1 - nth, [`After ${+contact[0].toPrecision(4)}`], '', contactLabel(this.bodies, frame, contact)));
     return [...items, ...more((count ?? 0) - items.length)];
   }
 
   item(number, title, size, label, lives) {
     // Without a life beside it the label has all the room that it needs.
     const below = lives === undefined ? [] : [element('small', {}, lives)];
+    const first = [element('b', {}, ...title), element('span', {}, size)];
+    // A depth needs the room above the life, too.
+    const above = this.depths ? [element('span', { className: 'first' }, ...first)] : first;
     return element('li', {}, element('button', { type: 'button', 'data-number': number, onclick: () => this.chosen(number) },
-      element('b', {}, title), element('span', {}, size), element('small', { title: label, className: below.length ? '' : 'whole' }, element('bdi', {}, label)), ...below));
+      ...above, element('small', { title: label, className: below.length ? '' : 'whole' }, element('bdi', {}, label)), ...below));
   }
 }
 

@@ -37,6 +37,8 @@ export class Player {
     this.pause();
     this.frames = motion.frames;
     this.bodies = motion.bodies;
+    // Triangles that intersect are red, unless their colour is a depth.
+    this.red = motion.depths ? '' : 'red ';
     this.slider.max = this.frames.length - 1;
     this.slider.disabled = this.frames.length < 2;
     this.playButton.disabled = this.frames.length < 2;
@@ -77,10 +79,9 @@ export class Player {
 
   /** What a frame has, in words. */
   found(pairs, red, near) {
-    const triangles = (count, which) => `${grouped(count)} ${which} ${count === 1 ? 'triangle' : 'triangles'}`;
     if (pairs === 0) return this.within === null ? 'nothing intersects' : `nothing is within ${this.within}`;
-    if (this.within === null) return `${counted(pairs, 'pair')}, ${triangles(red, 'red')}`;
-    const some = [red > 0 && `${triangles(red, 'red')} that intersect`, near > 0 && `${triangles(near, 'orange')} within ${this.within}`];
+    if (this.within === null) return `${counted(pairs, 'pair')}, ${counted(red, `${this.red}triangle`)}`;
+    const some = [red > 0 && `${counted(red, `${this.red}triangle`)} that intersect`, near > 0 && `${counted(near, 'orange triangle')} within ${this.within}`];
     return [counted(pairs, 'pair'), ...some.filter(Boolean)].join(', ');
   }
 

@@ -56,7 +56,8 @@ export class Selection {
 
   show() {
     if (!this.chosen || !this.frame) {
-      this.panel.replaceChildren(element('p', { className: 'hint' }, 'Click a triangle to see its body and number, and whom it meets. Drag to turn; once clicked, scroll to come nearer. What is red inside a body shows with See through. Lines are where surfaces go through each other.'));
+      const which = this.motion?.depths ? 'intersects' : 'is red';
+      this.panel.replaceChildren(element('p', { className: 'hint' }, `Click a triangle to see its body and number, and whom it meets. Drag to turn; once clicked, scroll to come nearer. What ${which} inside a body shows with See through. Lines are where surfaces go through each other.`));
       this.changed([]);
       return;
     }

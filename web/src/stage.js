@@ -155,7 +155,10 @@ export class Stage {
       color: hue, emissive: hue, emissiveIntensity: 0.12,
       polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1,
     });
-    const hits = make(new Uint32Array(body.corners.length), inFront(this.red), inFront(this.near));
+    // Those of places with a depth have the colour of that. Places share no vertices.
+    const deep = this.motion.depths ? [{ ...inFront(0xffffff), emissive: 0, vertexColors: true }] : [];
+    const hits = make(new Uint32Array(body.corners.length), inFront(this.red), inFront(this.near), ...deep);
+    if (deep.length > 0) hits.geometry.setAttribute('color', new BufferAttribute(new Float32Array(position.array.length), 3));
     hits.renderOrder = 1;
     const made = { body, mesh, hits, position, drawn, copies };
     this.drawShown(made);
@@ -205,26 +208,40 @@ export class Stage {
     const { frame } = this;
     let [at, red] = [0, 0];
     const near = new Set(frame.near);
+    // Numbers of materials.
+    const kind = (row) => (near.has(row) ? 1 : frame.deep.has(row) ? 2 : 0);
     this.bodies.forEach(({ body, mesh, hits }, number) => {
       mesh.visible = this.isShown(number);
       const own = [];
       for (; at < frame.red.length && frame.red[at] < body.first + body.triangles; at++) own.push(frame.red[at]);
-      const ownRed = own.filter((row) => !near.has(row));
-      red += ownRed.length;
-      const shown = (rows) => rows.filter((row) => this.isTriangleShown(body, row - body.first));
-      const [drawnRed, drawnNear] = [shown(ownRed), shown(own.filter((row) => near.has(row)))];
-      hits.userData.triangles = [...drawnRed, ...drawnNear].map((row) => row - body.first);
+      red += own.filter((row) => !near.has(row)).length;
+      const shown = own.filter((row) => this.isTriangleShown(body, row - body.first));
+      const drawn = [0, 1, 2].map((material) => shown.filter((row) => kind(row) === material));
+      hits.userData.triangles = drawn.flat().map((row) => row - body.first);
       const { index } = hits.geometry;
       hits.userData.triangles.forEach((triangle, i) => index.array.set(body.corners.subarray(3 * triangle, 3 * triangle + 3), 3 * i));
       index.needsUpdate = true;
-      const [redLength, length] = [3 * drawnRed.length, 3 * hits.userData.triangles.length];
-      hits.geometry.setDrawRange(0, length);
-      hits.visible = mesh.visible && length > 0;
+      hits.geometry.setDrawRange(0, 3 * shown.length);
+      hits.visible = mesh.visible && shown.length > 0;
       hits.geometry.clearGroups();
-      if (redLength > 0) hits.geometry.addGroup(0, redLength, 0);
-      if (redLength < length) hits.geometry.addGroup(redLength, length - redLength, 1);
+      let start = 0;
+      drawn.forEach((rows, material) => {
+        if (rows.length > 0) hits.geometry.addGroup(start, 3 * rows.length, material);
+        start += 3 * rows.length;
+      });
+      this.paint(body, hits.geometry.getAttribute('color'), drawn[2]);
     });
     return red;
+  }
+
+  /** Gives triangles the colours of their depths. */
+  paint(body, colours, rows) {
+    for (const row of rows) {
+      const colour = new Color(this.motion.depths.colour(this.frame.deep.get(row)));
+      const triangle = 3 * (row - body.first);
+      body.corners.subarray(triangle, triangle + 3).forEach((vertex) => colour.toArray(colours.array, 3 * vertex));
+    }
+    if (rows.length > 0) colours.needsUpdate = true;
   }
 
   /** The box of all that is shown. */
@@ -556,7 +573,11 @@ export class Stage {
 
   /** A marker for each place of the frame. */
   showMarkers() {
-    this.markers.replaceChildren(...this.frame.places.map(() => element('i')));
+    this.markers.replaceChildren(...this.frame.places.map(({ depth }) => {
+      const marker = element('i');
+      if (depth !== null) marker.style.setProperty('--hue', this.motion.depths.colour(depth));
+      return marker;
+    }));
   }
 
   /** Markers have the same size on the screen, and are there for places that are too small to be seen at once. */

@@ -233,12 +233,12 @@ impl Watcher {
             self.places.take(&shown, pair, pair);
         }
         let places = self.places.end(&shown);
-        self.frame_with(number, world, pairs, &places, &[], |body| {
+        self.frame_with(number, world, pairs, (&places, &[]), &[], |body| {
             format!("body {body}")
         })
     }
 
-    /// Records a frame whose places are known.
+    /// Records a frame whose places are known, and the depths of triangles in them.
     ///
     /// `gaps` measures pairs that do not intersect, sorted by pair. `name` returns a body's name
     /// for the labels of places.
@@ -247,7 +247,7 @@ impl Watcher {
         number: u32,
         world: &World<S>,
         pairs: &[[u32; 4]],
-        places: &[Place],
+        (places, deep): (&[Place], &[([u32; 2], f64)]),
         gaps: &[Gap],
         name: impl Fn(u32) -> String,
     ) -> anyhow::Result<()> {
@@ -256,11 +256,12 @@ impl Watcher {
             count: place.count,
             lower: place.lower,
             upper: place.upper,
+            depth: place.depth,
             label: label(place, &name),
         };
         let spots: Vec<Spot> = places.iter().map(spot).collect();
         if let Some(recorder) = &mut self.recorder {
-            recorder.frame_with(number, world, pairs, &spots, gaps);
+            recorder.frame_with(number, world, pairs, &spots, gaps, deep);
         }
         if let Some(path) = self
             .options

@@ -13,6 +13,8 @@ pub struct Motion {
     pub(crate) numbers: Vec<u32>,
     /// Number of intersecting pairs in each frame.
     pub(crate) pairs: Vec<u64>,
+    /// Least and largest depth of places in all frames.
+    pub(crate) depths: Option<[f64; 2]>,
     /// Kept frames, ascending.
     pub(crate) frames: Vec<Frame>,
     /// Whether not even a few frames fit into a page; then there are no bodies and no frames.
@@ -48,6 +50,8 @@ pub(crate) struct Frame {
     pub(crate) gaps: Vec<GapShown>,
     /// Lines where pairs of `hits` meet; none if there are very many.
     pub(crate) lines: Vec<LineShown>,
+    /// Triangles of places with a depth, sorted, each with that depth.
+    pub(crate) deep: Vec<(u32, f64)>,
     /// Whether each box was made for this shape: by body, level and part.
     pub(crate) made: Vec<bool>,
     /// Places, most pairs first; of very many, the first.
@@ -102,6 +106,8 @@ pub struct Spot {
     pub lower: [f64; 3],
     /// Upper corner.
     pub upper: [f64; 3],
+    /// How deep one body is inside another there, if known. The page colours places by depth.
+    pub depth: Option<f64>,
     /// Label with the names of its bodies. It may contain any text.
     pub label: String,
 }
@@ -186,6 +192,11 @@ impl Motion {
     /// Numbers of all frames.
     pub fn numbers(&self) -> &[u32] {
         &self.numbers
+    }
+
+    /// Least and largest depth of places in all frames; `None` if no place has one.
+    pub fn depths(&self) -> Option<[f64; 2]> {
+        self.depths
     }
 
     /// Numbers of the frames that the page shows, ascending.
@@ -274,7 +285,8 @@ impl Frame {
             .iter()
             .map(|moment| 100 + 40 * moment.contacts.len());
         let near = 4 * self.near.len() + 56 * self.gaps.len() + 10 * self.lines.len();
-        6 * vertices + hits + near + self.made.len() / 8 + spots.chain(moment).sum::<usize>()
+        let deep = 12 * self.deep.len();
+        6 * vertices + hits + near + deep + self.made.len() / 8 + spots.chain(moment).sum::<usize>()
     }
 }
 

@@ -119,6 +119,11 @@ impl Motion {
                 }
             }
             out.lines(frame);
+            if self.depths.is_some() {
+                out.bytes(&(frame.deep.len() as u32).to_le_bytes());
+                out.words(frame.deep.iter().map(|&(triangle, _)| triangle));
+                frame.deep.iter().for_each(|&(_, depth)| out.float(depth));
+            }
             let mut made = frame.made.clone();
             made.resize(bits.max(made.len()), false);
             out.bits(&made);
@@ -307,6 +312,14 @@ mod tests {
             (0..count).map(word).collect()
         }
 
+        /// Triangles and their depths.
+        fn deep(&mut self) -> Vec<(u32, f64)> {
+            let count = u32::from_le_bytes(self.array()) as usize;
+            let triangles = self.words(count).into_iter();
+            let with_depth = triangles.map(|it| (it, f64::from_le_bytes(self.array())));
+            with_depth.collect()
+        }
+
         /// Mode of the prediction, and the decoded positions.
         fn positions(&mut self, count: usize, before: &[Vec<u16>; 2]) -> (u8, Vec<u16>) {
             let [mode] = self.array();
@@ -412,6 +425,9 @@ mod tests {
                 ],
                 _ => Vec::new(),
             },
+            deep: (0..frame % 3)
+                .map(|triangle| (300 * triangle, f64::from(frame) / 3.0))
+                .collect(),
             made: (0..11)
                 .map(|bit| (bit * bit + frame).is_multiple_of(3))
                 .collect(),
@@ -429,6 +445,7 @@ mod tests {
             ],
             numbers: (0..7).collect(),
             pairs: vec![0; 7],
+            depths: Some([1.0 / 3.0, 5.0 / 3.0]),
             frames: (0..7).map(frame).collect(),
             too_large: false,
         }
@@ -528,6 +545,7 @@ mod tests {
                     |end: &[Vec<u8>; 3]| u16::from_le_bytes([end[1][number], end[2][number]]);
                 assert_eq!([part(p), part(q)], line.parts);
             }
+            assert_eq!(packed.deep(), frame.deep);
             let bytes = packed.slice(frame.made.len().div_ceil(8));
             let bits = (0..frame.made.len()).map(|bit| bytes[bit / 8] >> (bit % 8) & 1 == 1);
             assert!(bits.eq(frame.made.iter().copied()));

@@ -158,6 +158,7 @@ fn motion(motion: &Motion) -> Value {
         "numbers": motion.numbers,
         "pairs": motion.pairs,
         "places": motion.frames.iter().map(|frame| spots(frame, normalisation)).collect::<Value>(),
+        "depths": motion.depths,
         "placeCounts": motion.frames.iter().map(|frame| frame.all_spots).collect::<Value>(),
         "frames": motion.frames.iter().map(|frame| frame.index).collect::<Value>(),
         "moments": motion.frames.iter().map(moment).collect::<Value>(),
@@ -188,7 +189,7 @@ fn moment(frame: &Frame) -> Value {
 }
 
 /// JSON of a frame's places, in the page's coordinates: number, pairs, lower and upper corner,
-/// label.
+/// label, depth.
 fn spots(frame: &Frame, normalisation: Normalisation) -> Value {
     let inside = |corner: [f64; 3]| -> [f64; 3] {
         std::array::from_fn(|axis| {
@@ -202,7 +203,8 @@ fn spots(frame: &Frame, normalisation: Normalisation) -> Value {
             it.count,
             inside(it.lower),
             inside(it.upper),
-            it.label
+            it.label,
+            it.depth
         ])
     });
     spots.collect()

@@ -63,6 +63,8 @@ pub struct Recorder {
     budget: usize,
     numbers: Vec<u32>,
     pairs: Vec<u64>,
+    /// Least and largest depth of places so far.
+    depths: Option<[f64; 2]>,
     kept: Vec<Arc<Kept>>,
     /// Sum of the costs of `kept`, without meshes.
     cost: usize,
@@ -99,6 +101,7 @@ impl Recorder {
             budget,
             numbers: Vec::new(),
             pairs: Vec::new(),
+            depths: None,
             kept: Vec::new(),
             cost: 0,
             stride: 1,
@@ -116,13 +119,14 @@ impl Recorder {
     /// The bodies are the first frame's. Pairs of other bodies are counted and not drawn. The
     /// world's boxes are as the queries left them. O(n log n) for n vertices, triangles and pairs.
     pub fn frame<S: Scalar>(&mut self, number: u32, world: &World<S>, pairs: &[[u32; 4]]) {
-        self.frame_with(number, world, pairs, &[], &[]);
+        self.frame_with(number, world, pairs, &[], &[], &[]);
     }
 
-    /// [`frame`](Self::frame) with places and gaps. Lines are drawn where pairs meet.
+    /// [`frame`](Self::frame) with places, gaps and depths. Lines are drawn where pairs meet.
     ///
     /// `spots` are the places of the pairs, most pairs first. `gaps` are the closest points of
-    /// pairs that do not intersect, sorted by pair.
+    /// pairs that do not intersect, sorted by pair. `deep` are triangles of places with a depth,
+    /// each a body and a triangle, with that depth.
     pub fn frame_with<S: Scalar>(
         &mut self,
         number: u32,
@@ -130,17 +134,22 @@ impl Recorder {
         pairs: &[[u32; 4]],
         spots: &[Spot],
         gaps: &[Gap],
+        deep: &[([u32; 2], f64)],
     ) {
         let index = self.numbers.len();
         self.numbers.push(number);
         self.pairs.push(pairs.len() as u64);
+        for depth in spots.iter().filter_map(|spot| spot.depth) {
+            let [least, most] = self.depths.unwrap_or([depth; 2]);
+            self.depths = Some([least.min(depth), most.max(depth)]);
+        }
         if index == 0 {
             self.meet_bodies(world);
         }
         if self.too_large || !self.meet_meshes(world) {
             return;
         }
-        let mut frame = self.look(index, world, pairs, gaps);
+        let mut frame = self.look(index, world, pairs, gaps, deep);
         frame.spots = spots.iter().take(MOST_SPOTS).cloned().collect();
         frame.all_spots = spots.len();
         let kept = self.with_meshes(frame);
@@ -182,6 +191,7 @@ impl Recorder {
             near: Vec::new(),
             gaps: Vec::new(),
             lines: Vec::new(),
+            deep: Vec::new(),
             // The boxes belong to the frame's shape, not to this one.
             made: vec![false; last.frame.made.len()],
             spots: Vec::new(),
@@ -259,6 +269,7 @@ impl Recorder {
             bodies: meshes.into_iter().map(Arc::unwrap_or_clone).collect(),
             numbers: self.numbers,
             pairs: self.pairs,
+            depths: self.depths,
             frames,
             too_large: self.too_large,
         }
@@ -356,6 +367,7 @@ impl Recorder {
         world: &World<S>,
         pairs: &[[u32; 4]],
         gaps: &[Gap],
+        deep: &[([u32; 2], f64)],
     ) -> Frame {
         let mut firsts = Vec::with_capacity(self.known.len());
         let mut first = 0;
@@ -412,6 +424,10 @@ impl Recorder {
             })
         });
         let gaps = gaps.collect();
+        let deep = deep
+            .iter()
+            .filter_map(|&([body, triangle], depth)| Some((global(body, triangle)?, depth)));
+        let deep = deep.collect();
         let mut lines: Vec<LineShown> = Vec::new();
         if pairs.len() <= MOST_LINES {
             let met = lines::of_pairs(world, pairs).into_iter();
@@ -444,6 +460,7 @@ impl Recorder {
             near,
             gaps,
             lines,
+            deep,
             made,
             spots: Vec::new(),
             all_spots: 0,
@@ -529,6 +546,8 @@ fn in_row(kept: Kept, meshes: &[Arc<BodyRecord>]) -> Frame {
     for line in &mut frame.lines {
         line.triangles.iter_mut().for_each(in_row);
     }
+    frame.deep.iter_mut().for_each(|(it, _)| in_row(it));
+    frame.deep.sort_unstable_by_key(|&(triangle, _)| triangle);
     let mut shapes = std::mem::take(&mut frame.shapes);
     let shapes = places.iter().map(|place| shapes[(*place)?].take());
     frame.shapes = shapes.collect();

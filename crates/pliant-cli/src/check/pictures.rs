@@ -10,9 +10,10 @@ use super::names::{at_rest, labelled};
 use crate::advice;
 use crate::report::{Watcher, fact};
 use crate::table::{grouped, short};
-use pliant_check::{AnyWorld, Baseline, Check, Found, Interval, Row, with_world};
+use pliant_check::{AnyWorld, Baseline, Check, Found, Interval, Place, Row, with_world};
 use pliant_io::shown;
 use pliant_report::{BodyLabel, Gap, Parts};
+use std::collections::HashMap;
 
 /// Note on a page about contacts between frames.
 const BETWEEN_FRAMES: &str = "\
@@ -20,6 +21,12 @@ Between two frames every corner moves on a straight line. Where something meets 
 not in the frame already, the picture has a frame more. It lists what meets, the earliest first, \
 and shows the bodies at the contact that is chosen, with the triangles there in red, and the \
 vertex (as a cross), the edges or the triangle that meet drawn over everything.";
+
+/// Note on a page about depths.
+const DEPTHS: &str = "\
+The colour of a place is its depth: how far the deepest vertex there is inside the other body, and \
+0 if none is. What intersects and has no depth is red, as within one file, or where no body is \
+closed.";
 
 /// Page and picture of one check.
 pub(super) struct Pictures {
@@ -107,6 +114,7 @@ impl Pictures {
         let mut gaps: Vec<Gap> = found.gaps.iter().map(gap).collect();
         gaps.sort_unstable_by_key(|gap| gap.pair);
         let places = found.places.as_deref().unwrap_or_default();
+        let deep = deep(check, places, &pairs);
         // With one body, nobody needs to be told its name.
         let name = |body| match check.body(body) {
             Some(body) if check.body_count() > 1 => shown(body.name),
@@ -117,7 +125,7 @@ impl Pictures {
         match &found.places {
             Some(_) => {
                 with_world!(check.world(), world => {
-                    watcher.frame_with(number, world, &pairs, places, &gaps, name)
+                    watcher.frame_with(number, world, &pairs, (places, &deep), &gaps, name)
                 })
             }
             None => with_world!(check.world(), world => watcher.frame(number, world, &pairs)),
@@ -155,7 +163,7 @@ impl Pictures {
         if arguments.swept {
             watcher.also_found(way.found());
         }
-        watcher.finish("check", "frame", |_, play| {
+        watcher.finish("check", "frame", |motion, play| {
             if arguments.swept {
                 play.facts
                     .push(fact("ways with contacts", way.meeting.to_string()));
@@ -167,6 +175,9 @@ impl Pictures {
                         way.skipped
                     ));
                 }
+            }
+            if motion.depths().is_some() {
+                play.notes.push(DEPTHS.to_owned());
             }
             let precision = match check.world() {
                 AnyWorld::F32(_) => "f32",
@@ -260,6 +271,27 @@ fn parts(check: &Check, number: usize) -> Parts {
         names: names.collect(),
         of_triangles: (0..source.triangles().len()).map(part).collect(),
     }
+}
+
+/// Triangles of pairs of sources in places with a depth, each with that depth.
+fn deep(check: &Check, places: &[Place], pairs: &[Row]) -> Vec<([u32; 2], f64)> {
+    let depths = places.iter().filter_map(|it| Some((it.number, it.depth?)));
+    let depths: HashMap<usize, f64> = depths.collect();
+    if depths.is_empty() {
+        return Vec::new();
+    }
+    let vertices = check.vertices_of_places().iter();
+    let vertices = vertices.filter_map(|(vertex, place)| Some((*vertex, *depths.get(place)?)));
+    let of_vertices: HashMap<[u32; 2], f64> = vertices.collect();
+    let triangles = pairs.iter().flat_map(|&[a, b, c, d]| [[a, b], [c, d]]);
+    let mut triangles: Vec<[u32; 2]> = triangles.collect();
+    triangles.sort_unstable();
+    triangles.dedup();
+    let deep = triangles.into_iter().filter_map(|[source, triangle]| {
+        let [vertex, ..] = check.sources()[source as usize].triangles()[triangle as usize];
+        Some(([source, triangle], *of_vertices.get(&[source, vertex])?))
+    });
+    deep.collect()
 }
 
 /// Renumbers a pair of bodies as a pair of sources, the smaller first.

@@ -387,6 +387,46 @@ fn pages_and_pictures_have_what_is_left_of_the_pairs() {
 }
 
 #[test]
+fn places_of_solids_have_depths_on_the_page_and_nothing_else_changes() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let tetrahedron = |corners: [[f64; 3]; 4]| {
+        let corners = corners.map(|[x, y, z]| format!("v {x} {y} {z}\n"));
+        format!("{}f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", corners.concat())
+    };
+    let write = |name: &str, text: String| fs::write(folder.join(name), text).unwrap();
+    let still = [0.0, 8.0].map(|x| [x, 0.0, 0.0]);
+    let still = [still[0], still[1], [0.0, 8.0, 0.0], [0.0, 0.0, 8.0]];
+    write("still.obj", tetrahedron(still));
+    // From below a tip goes into it, and further in the next frame.
+    for (frame, z) in [-0.5, 0.25, 0.75].into_iter().enumerate() {
+        let [a, b, c] = [[1.5, 1.5], [2.5, 1.5], [2.0, 2.5]].map(|[x, y]| [x, y, z - 2.0]);
+        let tip = tetrahedron([a, b, c, [2.0, 2.0, z]]);
+        write(&format!("moves_{frame}.obj"), tip);
+    }
+    let page = |name: &str, solid: &[&str]| {
+        let asked = ["--format", "json", "--report", name];
+        let said = check(folder, &[&asked[..], solid].concat());
+        assert_eq!(said.code, 1, "{}", said.err);
+        (said.json(), head(folder, name))
+    };
+    let (said, mut with) = page("with.html", &["--solid"]);
+    let (_, mut without) = page("without.html", &[]);
+    assert_eq!(with["motions"][0]["depths"].take(), json!([0.25, 0.75]));
+    for frame in [1, 2] {
+        let depth = with["motions"][0]["places"][frame][0][5].take();
+        assert_eq!(depth, said["frames"][frame]["places"][0]["depth"]);
+        assert!(depth.is_number());
+    }
+    let note = with["plays"][0]["notes"].take();
+    assert!(note[0].as_str().unwrap().contains("its depth"), "{note}");
+    assert_eq!(without["plays"][0]["notes"].take(), json!([]));
+    with["asked"].take();
+    without["asked"].take();
+    assert_eq!(with, without);
+}
+
+#[test]
 fn pieces_and_groups_are_bodies_of_the_page() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();

@@ -208,6 +208,7 @@ fn a_place_fills_the_picture_and_is_marked_in_an_inset() {
         count: 1,
         lower: [10.0, 10.0, -5.0],
         upper: [12.0, 12.0, 5.0],
+        depth: None,
         label: String::new(),
     };
     // Only the thorn is red, so that red is where the place is.

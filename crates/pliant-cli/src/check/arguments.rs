@@ -67,7 +67,7 @@ pub(crate) struct Arguments {
     pub(super) crossing: bool,
     /// Take closed bodies for solids: a body that lies inside another, and meets none of its
     /// triangles, makes the exit code 1 too. Places have a depth: how far the deepest vertex is
-    /// inside. What lies inside is said in any case
+    /// inside; --report colours them by it. What lies inside is said in any case
     #[arg(long)]
     pub(super) solid: bool,
     /// Leave out triangles of one body that share a vertex and meet beyond it. They go through each

@@ -2,13 +2,14 @@
 
 use clap::Command;
 
-/// Calls `show` with every verb and each of its long options.
+/// Calls `show` with every verb and each of its long options that are no secret.
 pub(crate) fn for_each_option(mut show: impl FnMut(&str, &str)) {
     let mut program = crate::command();
     program.build();
     let mut shown = 0;
     for verb in verbs(&program) {
-        for option in verb.get_arguments().filter_map(|option| option.get_long()) {
+        let shown_in_help = verb.get_arguments().filter(|option| !option.is_hide_set());
+        for option in shown_in_help.filter_map(|option| option.get_long()) {
             show(verb.get_name(), option);
             shown += 1;
         }

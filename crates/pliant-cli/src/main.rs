@@ -22,6 +22,7 @@ mod rate;
 mod report;
 mod run;
 mod size;
+mod summary;
 mod table;
 mod terminal;
 mod tree_options;
@@ -46,7 +47,9 @@ enum Verb {
     /// Play a built-in scene of deforming bodies and report what intersects and how long it took
     Run(run::Arguments),
     /// Check your own meshes or mesh sequences for intersections
-    Check(check::Arguments),
+    Check(Box<check::Arguments>),
+    /// Say how many of what many checks have found
+    Summary(summary::Arguments),
     /// Write a mesh or a sequence in another format
     Convert(convert::Arguments),
     /// Compare methods side by side: the paper's experiments and ours
@@ -83,6 +86,7 @@ fn main() -> ExitCode {
     let outcome = edge::caught(|| match arguments.verb {
         Verb::Run(arguments) => run::run(&arguments),
         Verb::Check(arguments) => check::check(&arguments),
+        Verb::Summary(arguments) => summary::print(&arguments),
         Verb::Convert(arguments) => convert::convert(&arguments),
         Verb::Bench(arguments) => bench::bench(&arguments),
         Verb::Formats(arguments) => formats::print(&arguments),

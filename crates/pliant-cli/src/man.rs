@@ -70,6 +70,7 @@ mod tests {
         let verbs = [
             "run",
             "check",
+            "summary",
             "convert",
             "bench",
             "formats",

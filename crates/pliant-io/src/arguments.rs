@@ -12,7 +12,7 @@
 //! Files must exist and be regular before any is opened: a pipe would block, and can be read only
 //! once.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Reason};
 use crate::file::Found;
@@ -38,7 +38,7 @@ pub(crate) enum Named {
 pub(crate) fn named(argument: &str) -> Result<Named, Error> {
     let named = |name: &str| name.to_owned();
     match read(argument) {
-        Meant::Files => files(argument).map(Named::Files),
+        Meant::Files => frames(argument).map(Named::Files),
         Meant::Cache { mesh, positions } => Ok(Named::Cache {
             mesh: file(mesh)?,
             positions: file(positions)?,
@@ -48,11 +48,28 @@ pub(crate) fn named(argument: &str) -> Result<Named, Error> {
             name: named(name),
         }),
         Meant::Part { path, name, format } if format.holds_groups() => Ok(Named::Group {
-            files: files(path)?,
+            files: frames(path)?,
             name: named(name),
         }),
         Meant::Part { path, name, .. } => Err(Error::new(path, holds_one_body(name))),
     }
+}
+
+/// Finds the files that an argument names, in the order in which they are read.
+///
+/// Of a mesh and its positions both; files that a glTF file keeps data in are not among them.
+///
+/// # Errors
+///
+/// As [`open_all`](crate::open_all), of files that are not there. No file is opened.
+pub fn files(argument: &str) -> Result<Vec<PathBuf>, Error> {
+    let found = match named(argument)? {
+        Named::Files(files) | Named::Group { files, .. } => files,
+        Named::Body { file, .. } => vec![file],
+        Named::Cache { mesh, positions } => vec![mesh, positions],
+    };
+    let path = |it: &Found| it.path().to_owned();
+    Ok(found.iter().map(path).collect())
 }
 
 /// Splits an argument that names a group of an OBJ or STL file into file and group.
@@ -165,7 +182,7 @@ fn file(name: &str) -> Result<Found, Error> {
 }
 
 /// Finds the files that `argument` names, in natural order; at least one.
-fn files(argument: &str) -> Result<Vec<Found>, Error> {
+fn frames(argument: &str) -> Result<Vec<Found>, Error> {
     let error = |reason: Reason| Error::new(argument, reason);
     if Path::new(argument).metadata().is_ok() || !is_pattern(argument) {
         return Ok(vec![file(argument)?]);

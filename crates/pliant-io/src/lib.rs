@@ -167,7 +167,7 @@ mod triangulate;
 mod weld;
 mod write;
 
-pub use arguments::group_argument;
+pub use arguments::{files, group_argument};
 pub use body::{Body, open, open_all};
 pub use error::{Error, Place, Reason};
 pub use evaluated::{Evaluated, evaluated};

@@ -1,5 +1,6 @@
 //! Arguments of `pliant check`.
 
+use super::list_arguments::Many;
 use super::names::{self, Names};
 use crate::frames::Frames;
 use crate::report::PictureOptions;
@@ -22,7 +23,11 @@ pub(crate) struct Arguments {
     /// order are the frames of one body. A glTF file (.glb, .gltf, .vrm): each of its bodies, or
     /// one (scene.glb#arm). One group of an OBJ file, or one solid of an STL file (scan.obj#arm),
     /// also of a pattern
-    #[arg(value_name = "BODY", required = true, value_hint = ValueHint::FilePath)]
+    #[arg(
+        value_name = "BODY",
+        required_unless_present = "files_from",
+        value_hint = ValueHint::FilePath
+    )]
     pub(super) bodies: Vec<String>,
     /// Check each body against itself too; one body alone always is
     #[arg(long = "self")]
@@ -138,7 +143,7 @@ pub(crate) struct Arguments {
     pub(super) weld: f64,
     /// The most memory that a frame may take, also while seams are found: 4GiB, 512MiB, 1G, bytes.
     /// A list of pairs may take as much again. A frame that says it is larger is refused before it
-    /// is read
+    /// is read. With --files-from, the most of all jobs together
     #[arg(long, value_name = "SIZE", default_value = "4GiB", value_parser = size::parse)]
     pub(super) max_memory: u64,
     /// The animation of glTF files, by name; the first if none is named
@@ -158,7 +163,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "T", default_value = "all", value_parser = threads)]
     pub(super) threads: NonZeroUsize,
     /// A table by frame, one JSON object, annotations for GitHub Actions, or a line for each pair:
-    /// FRAME BODY TRIANGLE BODY TRIANGLE
+    /// FRAME BODY TRIANGLE BODY TRIANGLE. jsonl, a JSON object for each check, is for --files-from
     #[arg(long, value_enum, default_value_t = Format::Table)]
     pub(super) format: Format,
     /// Write the triangles that intersect for ParaView, as .vtp or .vtu, and the curves in which
@@ -170,6 +175,8 @@ pub(crate) struct Arguments {
     pub(super) quiet: bool,
     #[command(flatten)]
     pub(super) pictures: PictureOptions,
+    #[command(flatten)]
+    pub(super) many: Many,
 }
 
 const EXAMPLES: &str = "\
@@ -199,6 +206,8 @@ Examples:
   pliant check shirt.npz skin.npz --swept            nothing jumps through?
   pliant check walk.npz --swept --report walk.html   with the moments of contact
   pliant check walk.npz --quiet && echo clean
+  pliant check --files-from list.txt --out rows.jsonl     a check a line
+  pliant check --files-from list.txt --out 0.jsonl --shard 0/2 --resume
 
 With --swept, elements count that meet on the way, except those that meet in the frame already. \
 An element that two bodies share is of both. \
@@ -231,6 +240,7 @@ pub(super) enum Format {
     Json,
     Github,
     Lines,
+    Jsonl,
 }
 
 /// Parses a distance: at least 0 and finite.

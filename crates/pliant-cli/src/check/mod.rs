@@ -4,10 +4,13 @@ mod adjacent;
 mod arguments;
 mod figures;
 mod hits;
+mod list_arguments;
+pub(crate) mod many;
 mod moments;
 mod names;
 mod output;
 mod pictures;
+mod settings;
 
 pub(crate) use arguments::Arguments;
 
@@ -15,16 +18,19 @@ use crate::outcome::Outcome;
 use crate::table::short;
 use crate::terminal::{complain, note};
 use anyhow::{anyhow, bail};
-use arguments::{Format, Split};
+use arguments::Format;
 use hits::Hits;
 use output::Output;
 use pictures::Pictures;
-use pliant::Options;
-use pliant_check::{Baseline, Check, Error, Settings};
-use pliant_io::{OpenOptions, shown};
+use pliant_check::{Baseline, Check, Error};
+use pliant_io::shown;
+use settings::settings;
 
 /// Checks all frames and prints what intersects.
 pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    if let Some(outcome) = many::check(arguments) {
+        return outcome;
+    }
     if let Some(pattern) = pliant_io::looks_like_a_series(&arguments.bodies) {
         complain(&format!(
             "note: {} arguments are {0} bodies; \
@@ -103,48 +109,8 @@ fn can_be_swept(arguments: &Arguments) -> anyhow::Result<()> {
 }
 
 fn open(arguments: &Arguments) -> Result<Check, Error> {
-    let reading = OpenOptions {
-        weld: !arguments.no_weld,
-        weld_tolerance: arguments.weld,
-        max_memory: arguments.max_memory,
-        clip: arguments.clip.clone(),
-        fps: arguments.fps,
-    };
-    let mut options = Options::default();
-    options.threads = arguments.threads;
-    let settings = Settings {
-        itself: arguments.itself,
-        within: arguments.within,
-        rest: arguments.rest.clone(),
-        labels: arguments.labels.clone(),
-        crossing: arguments.crossing,
-        ignore_adjacent: arguments.ignore_adjacent,
-        crossing_edges: !arguments.quiet && arguments.format == Format::Json,
-        swept: arguments.swept,
-        inside: arguments.solid || !arguments.quiet,
-        solid: arguments.solid,
-        closest_points: arguments.pictures.any(),
-        max_list: arguments.max_memory,
-        split: arguments.split.map(|split| match split {
-            Split::Components => pliant_check::Split::Components,
-            Split::Groups => pliant_check::Split::Groups,
-        }),
-        groups: arguments.groups.clone(),
-        ignore: arguments.ignore.clone(),
-        baseline: arguments.baseline.clone(),
-        skip_degenerate: arguments.skip_degenerate,
-        places: finds_places(arguments),
-        frames: Some(arguments.frames.to_check()),
-        options,
-        ..Settings::default()
-    };
+    let (reading, settings) = settings(arguments);
     Check::open(&arguments.bodies, &reading, &settings)
-}
-
-/// Whether any output shows places.
-fn finds_places(arguments: &Arguments) -> bool {
-    let printed = !arguments.quiet && !arguments.count && arguments.format != Format::Lines;
-    printed || arguments.pictures.any()
 }
 
 fn frames(

@@ -12,6 +12,7 @@ mod formats;
 mod hits;
 mod inside;
 mod labels;
+mod many;
 mod memory;
 mod messages;
 mod names;

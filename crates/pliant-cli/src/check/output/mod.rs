@@ -41,6 +41,9 @@ impl Output {
             Format::Json => Box::new(json::Json::new(arguments)),
             Format::Github => Box::new(github::Github::new(arguments)),
             Format::Lines => Box::new(lines::Lines::new(arguments)),
+            Format::Jsonl => anyhow::bail!(
+                "--format jsonl has a line for each check of a list; name one with `--files-from`"
+            ),
         };
         let mut output = Self {
             out: BufWriter::new(io::stdout()),

@@ -1,0 +1,174 @@
+//! Rows: what a check of one line of a list found, or why there was none.
+
+use crate::check::arguments::Arguments;
+use crate::check::settings::settings;
+use pliant_check::{Check, Found};
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::time::Instant;
+
+/// A line of a list: its number from 1, and the bodies that it names.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub(super) struct Line {
+    pub(super) line: u64,
+    pub(super) bodies: Vec<String>,
+}
+
+/// A row of the output. Counts are sums over the frames that were checked.
+///
+/// Where there is an error, counts are absent.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub(crate) struct Row {
+    /// Line of the list, from 1.
+    pub(crate) line: u64,
+    pub(crate) bodies: Vec<String>,
+    /// Size and hash of the files named, one after the other. Absent if they cannot be read.
+    pub(crate) bytes: Option<u64>,
+    pub(crate) sha256: Option<String>,
+    /// Triangles of all bodies, in the first frame.
+    pub(crate) triangles: Option<u64>,
+    /// Intersecting pairs, or close ones with `--within`.
+    pub(crate) pairs: Option<u64>,
+    /// Edges of one body that cross triangles of another or of the same.
+    pub(crate) crossing_edges: Option<u64>,
+    /// Pairs that share a vertex.
+    pub(crate) adjacent: Option<u64>,
+    /// Pairs, among these, that only touch.
+    pub(crate) touching: Option<u64>,
+    /// Pairs with a triangle without area.
+    pub(crate) degenerate: Option<u64>,
+    /// Components inside bodies.
+    pub(crate) inside: Option<u64>,
+    pub(crate) ms: Option<f64>,
+    /// The most memory that the process held, where the system says so.
+    pub(crate) peak_bytes: Option<u64>,
+    pub(crate) error: Option<String>,
+}
+
+impl Row {
+    /// Row of a line that has no answer.
+    pub(super) fn failed(line: &Line, error: impl Into<String>) -> Self {
+        Self {
+            line: line.line,
+            bodies: line.bodies.clone(),
+            bytes: None,
+            sha256: None,
+            triangles: None,
+            pairs: None,
+            crossing_edges: None,
+            adjacent: None,
+            touching: None,
+            degenerate: None,
+            inside: None,
+            ms: None,
+            peak_bytes: None,
+            error: Some(error.into()),
+        }
+    }
+
+    /// Checks the bodies of a line.
+    pub(super) fn of(arguments: &Arguments, line: &Line) -> Self {
+        let begun = Instant::now();
+        let mut row = Self::failed(line, "");
+        let found = crate::edge::caught(|| row.fill(arguments));
+        row.error = found.err().map(|error| crate::advice::with_advice(&error));
+        row.ms = Some(begun.elapsed().as_secs_f64() * 1e3);
+        row
+    }
+
+    fn fill(&mut self, arguments: &Arguments) -> anyhow::Result<()> {
+        let (bytes, hash) = hashed(&self.bodies)?;
+        (self.bytes, self.sha256) = (Some(bytes), Some(hash));
+        let (reading, mut settings) = settings(arguments);
+        settings.crossing_edges = arguments.within.is_none();
+        settings.inside = true;
+        settings.places = arguments.crossing;
+        let mut check = Check::open(&self.bodies, &reading, &settings)?;
+        check.begin()?;
+        let triangles = check.sources().iter().map(|it| it.triangles().len() as u64);
+        let mut counts = Counts {
+            triangles: triangles.sum(),
+            ..Counts::default()
+        };
+        loop {
+            check.ask(arguments.first, false);
+            let Some(found) = check.next_frame()? else {
+                break;
+            };
+            counts.add(&found);
+        }
+        self.triangles = Some(counts.triangles);
+        self.pairs = Some(counts.pairs);
+        self.crossing_edges = counts.crossing_edges;
+        self.adjacent = counts.adjacent;
+        self.touching = counts.touching;
+        self.degenerate = Some(counts.degenerate);
+        self.inside = Some(counts.inside);
+        Ok(())
+    }
+
+    /// Whether anything intersects, or, among solids, lies inside another.
+    pub(crate) fn meets(&self, solid: bool) -> bool {
+        let some = |count: Option<u64>| count.is_some_and(|count| count > 0);
+        some(self.pairs) || some(self.adjacent) || solid && some(self.inside)
+    }
+}
+
+/// Sums over frames. What a frame does not say is absent from the sum.
+#[derive(Default)]
+struct Counts {
+    triangles: u64,
+    pairs: u64,
+    crossing_edges: Option<u64>,
+    adjacent: Option<u64>,
+    touching: Option<u64>,
+    degenerate: u64,
+    inside: u64,
+}
+
+impl Counts {
+    fn add(&mut self, found: &Found) {
+        fn add(sum: &mut Option<u64>, count: Option<usize>) {
+            if let Some(count) = count {
+                *sum = Some(sum.unwrap_or(0) + count as u64);
+            }
+        }
+        self.pairs += found.count as u64;
+        self.degenerate += found.degenerate as u64;
+        let edges = found.crossing_edges.as_ref();
+        let edges = edges.map(|all| all.iter().map(|it| it.edges).sum());
+        add(&mut self.crossing_edges, edges);
+        add(
+            &mut self.adjacent,
+            found.adjacent.as_ref().map(|it| it.count),
+        );
+        add(&mut self.touching, found.kinds.map(|it| it.touching));
+        self.inside += found.inside.as_ref().map_or(0, |it| it.all.len() as u64);
+    }
+}
+
+/// Number of bytes in the files that arguments name, and their hash.
+fn hashed(bodies: &[String]) -> anyhow::Result<(u64, String)> {
+    let (mut hash, mut bytes) = (Sha256::new(), 0);
+    for body in bodies {
+        for path in pliant_io::files(body)? {
+            let mut file = BufReader::with_capacity(1 << 16, File::open(path)?);
+            loop {
+                let some = file.fill_buf()?;
+                let count = some.len();
+                if count == 0 {
+                    break;
+                }
+                hash.update(some);
+                file.consume(count);
+                bytes += count as u64;
+            }
+        }
+    }
+    let digits = hash.finalize().iter().fold(String::new(), |digits, byte| {
+        digits + &format!("{byte:02x}")
+    });
+    Ok((bytes, digits))
+}

@@ -458,7 +458,7 @@ fn points_hash<S: Scalar>(
                 .points_inside(&points, other, InsideRule::NonZero)
                 .unwrap();
             for located in windings {
-                fnv.add(&[located.winding as u32, located.side as u32]);
+                fnv.add(&[located.winding.cast_unsigned(), located.side as u32]);
             }
             let depth = world.depth(bodies[0], other).unwrap();
             fnv.add_figures(&depth.of_vertices);

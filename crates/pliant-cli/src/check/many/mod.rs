@@ -18,7 +18,7 @@ use crate::table::grouped;
 use crate::terminal::{complain, progress};
 use anyhow::bail;
 use indicatif::ProgressStyle;
-use out::Out;
+use out::{Out, Tally};
 use pliant_io::shown;
 use std::path::Path;
 use std::sync::Mutex;
@@ -35,32 +35,27 @@ pub(super) fn check(arguments: &Arguments) -> Option<anyhow::Result<Outcome>> {
     })
 }
 
-/// How many rows of which kind were written.
-#[derive(Clone, Copy, Default)]
-struct Tally {
-    clear: u64,
-    meeting: u64,
-    failed: u64,
-}
-
 fn check_all(arguments: &Arguments, list: &Path, path: &Path) -> anyhow::Result<Outcome> {
     let many = &arguments.many;
     if !matches!(arguments.format, Format::Table | Format::Jsonl) {
         bail!("--files-from writes rows, one JSON object a line; use `--format jsonl`");
     }
     let shard = many.shard.unwrap_or(Shard::ALL);
+    let lines = Mutex::new(list::lines(list, shard)?);
+    let out = Out::open(path, many.resume, arguments)?;
+    let mut total = 0;
     // A list on standard input is read once, and its length is not known before.
-    let total = if list == Path::new("-") {
-        0
-    } else {
-        list::lines(list, shard)?.count() as u64
-    };
+    if list != Path::new("-") {
+        for line in list::lines(list, shard)? {
+            let (Ok(its) | Err((its, _))) = line?;
+            out.has(&its)?;
+            total += 1;
+        }
+    }
     let bar = progress(total, arguments.quiet).with_style(ProgressStyle::with_template(
         "{wide_bar} {pos}/{len} checks, {eta} to go",
     )?);
-    let lines = Mutex::new(list::lines(list, shard)?);
-    let out = Out::open(path, many.resume, arguments.pictures.over)?;
-    let written = Mutex::new((out, Tally::default()));
+    let written = Mutex::new(out);
     let work = || -> anyhow::Result<()> {
         let mut place = worker::Place::default();
         loop {
@@ -69,19 +64,13 @@ fn check_all(arguments: &Arguments, list: &Path, path: &Path) -> anyhow::Result<
                 return Ok(());
             };
             let (Ok(its) | Err((its, _))) = &line;
-            let has_row = lock(&written).0.has(its)?;
+            let has_row = lock(&written).has(its)?;
             if !has_row {
                 let row = match &line {
                     Ok(line) => place.check(line, many.timeout())?,
                     Err((line, error)) => Row::failed(line, error.as_str()),
                 };
-                let (out, tally) = &mut *lock(&written);
-                out.write(&row)?;
-                match (&row.error, row.meets(arguments.solid)) {
-                    (Some(_), _) => tally.failed += 1,
-                    (None, true) => tally.meeting += 1,
-                    (None, false) => tally.clear += 1,
-                }
+                lock(&written).write(&row)?;
             }
             bar.inc(1);
         }
@@ -96,12 +85,12 @@ fn check_all(arguments: &Arguments, list: &Path, path: &Path) -> anyhow::Result<
     });
     bar.finish_and_clear();
     ended.into_iter().collect::<anyhow::Result<()>>()?;
-    let (_, tally) = *lock(&written);
     let Tally {
         clear,
         meeting,
         failed,
-    } = tally;
+    } = lock(&written).tally;
+    let meets = meeting > 0;
     let [clear, meeting, failures] = [clear, meeting, failed].map(grouped);
     let said = format!("{clear} lines clear, {meeting} with something, {failures} errors");
     if failed > 0 {
@@ -113,7 +102,7 @@ fn check_all(arguments: &Arguments, list: &Path, path: &Path) -> anyhow::Result<
     if !arguments.quiet {
         complain(&format!("note: {said}; `pliant summary` has more"));
     }
-    Ok(if tally.meeting > 0 {
+    Ok(if meets {
         Outcome::Intersects
     } else {
         Outcome::Clear

@@ -4,7 +4,7 @@
 //! one. To go on, that part is cut off, and the lines that have rows are left out.
 
 use super::row::{Line, Row};
-use crate::output::Overwrite;
+use crate::check::arguments::Arguments;
 use anyhow::{Context, bail};
 use pliant_io::shown;
 use std::collections::HashMap;
@@ -13,23 +13,47 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 
+/// How many rows of an output are of which kind.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Tally {
+    pub(super) clear: u64,
+    pub(super) meeting: u64,
+    pub(super) failed: u64,
+}
+
+impl Tally {
+    fn add(&mut self, row: &Row, solid: bool) {
+        match (&row.error, row.meets(solid)) {
+            (Some(_), _) => self.failed += 1,
+            (None, true) => self.meeting += 1,
+            (None, false) => self.clear += 1,
+        }
+    }
+}
+
 /// Output that rows are appended to.
 pub(super) struct Out {
     path: PathBuf,
     file: File,
     /// Lines that have rows, each with a hash of its bodies.
     done: HashMap<u64, u64>,
+    /// How many rows there are, with the ones from before.
+    pub(super) tally: Tally,
+    solid: bool,
 }
 
 impl Out {
     /// Begins an output, or goes on with one.
-    pub(super) fn open(path: &Path, resume: bool, over: Overwrite) -> anyhow::Result<Self> {
+    pub(super) fn open(path: &Path, resume: bool, arguments: &Arguments) -> anyhow::Result<Self> {
+        let over = arguments.pictures.over;
         let there = path.try_exists().with_context(|| cannot_write(path))?;
         let (mut done, mut end) = (HashMap::new(), 0);
+        let (mut tally, solid) = (Tally::default(), arguments.solid);
         if there && resume {
             for row in Rows::read(path)? {
                 let (row, behind) = row?;
                 done.insert(row.line, hash_of(&row.bodies));
+                tally.add(&row, solid);
                 end = behind;
             }
         } else if there && !over.force {
@@ -46,6 +70,8 @@ impl Out {
             path: path.to_owned(),
             file,
             done,
+            tally,
+            solid,
         })
     }
 
@@ -67,7 +93,9 @@ impl Out {
         let mut text = serde_json::to_vec(row)?;
         text.push(b'\n');
         let written = self.file.write_all(&text);
-        written.with_context(|| cannot_write(&self.path))
+        written.with_context(|| cannot_write(&self.path))?;
+        self.tally.add(row, self.solid);
+        Ok(())
     }
 }
 

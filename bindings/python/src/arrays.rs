@@ -445,6 +445,7 @@ fn as_numpy<'py>(given: &Any<'py>, what: &str) -> Result<Bound<'py, PyUntypedArr
     if let Ok(array) = given.cast::<PyUntypedArray>() {
         return Ok(array.clone());
     }
+    refuse_devices(given, what)?;
     let numpy = py.import(intern!(py, "numpy"))?;
     let array = numpy.call_method1(intern!(py, "asarray"), (given,))?;
     let array = array.cast_into::<PyUntypedArray>().map_err(PyErr::from)?;
@@ -460,6 +461,34 @@ fn as_numpy<'py>(given: &Any<'py>, what: &str) -> Result<Bound<'py, PyUntypedArr
          processor")
     })?;
     Ok(array.cast_into().map_err(PyErr::from)?)
+}
+
+/// Kinds of devices, as DLPack numbers them, whose arrays are in the memory of the processor: the
+/// processor itself, and memory of CUDA and ROCm that it sees.
+const READ_HERE: [i32; 4] = [1, 3, 11, 13];
+
+/// Refuses an array on another device, which some libraries would copy without a word.
+fn refuse_devices(given: &Any<'_>, what: &str) -> Result<()> {
+    let name = intern!(given.py(), "__dlpack_device__");
+    let Some(device) = given.getattr_opt(name)? else {
+        return Ok(());
+    };
+    match device
+        .call0()
+        .and_then(|device| device.extract::<(i32, i32)>())
+    {
+        Ok((kind, number)) if !READ_HERE.contains(&kind) => Err(refused!(BadArray:
+            "{what} are on another device (kind {kind} of DLPack, number {number}); pliant reads \
+             the memory of the processor: copy them there, as {what}.cpu() does in torch")),
+        _ => Ok(()),
+    }
+}
+
+/// An array of the caller as numpy has it, without a copy where numpy needs none.
+#[pyfunction(name = "_as_array")]
+pub(crate) fn of_caller<'py>(given: &Any<'py>, what: &str) -> Result<Bound<'py, PyUntypedArray>> {
+    refuse_masks(given, what)?;
+    as_numpy(given, what)
 }
 
 /// Refuses a masked array that hides any number, and a list of such arrays.

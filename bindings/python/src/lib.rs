@@ -64,6 +64,7 @@ mod _pliant {
 
     #[pymodule_export]
     use crate::{
+        arrays::of_caller,
         changes::Changes,
         check::{Check, check},
         curves::{curves, segments},

@@ -333,10 +333,13 @@ class OnlyDlpack:
 
 
 class Elsewhere:
-    """What is in the memory of another device."""
+    """What is in the memory of another device, from where numpy would copy it."""
 
     def __dlpack__(self, **_: Any) -> Any:
         raise BufferError("on a GPU")
+
+    def __array__(self, *_: Any, **__: Any) -> Any:
+        raise AssertionError("nobody asked for a copy")
 
     def __dlpack_device__(self) -> tuple[int, int]:
         return (2, 0)
@@ -360,9 +363,11 @@ def test_what_has_nothing_but_dlpack_is_an_array() -> None:
         ("faces", lambda: world.add(Elsewhere(), FLAT)),
         ("groups", lambda: world.set_vertex_groups(body, Elsewhere())),
         ("corners", lambda: pliant.edge_edge_impacts(Elsewhere(), pair)),
+        ("positions", lambda: pliant.self_intersections(FACES, Elsewhere())),
+        ("positions", lambda: world.intersections().of_frames({body: Elsewhere()})),
     ]
     for what, call in calls:
-        with pytest.raises(pliant.Error, match=rf"{what} cannot be read by numpy.from_dlpack \(.*\); give them in the memory") as refused:
+        with pytest.raises(pliant.Error, match=rf"{what} are on another device \(kind 2 of DLPack, number 0\);.* as {what}.cpu\(\) does") as refused:
             call()
         assert refused.value.kind == "BadArray"
 

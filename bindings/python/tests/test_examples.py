@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import os
 import runpy
+import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -48,7 +50,7 @@ def test_examples_of_the_readme(
     blocks = (HERE.parent / "README.md").read_text().split("```python\n")[2:]
     for block in blocks:
         exec(block.split("```")[0], names)
-    assert len(blocks) == 7 and capsys.readouterr().out.startswith("0 0 (0, 4)\n1 ")
+    assert len(blocks) == 8 and capsys.readouterr().out.startswith("0 0 (0, 4)\n1 ")
 
 
 def test_tearing_cloth_of_the_guide() -> None:
@@ -274,3 +276,29 @@ def test_net_hangs_over_a_ball(monkeypatch: pytest.MonkeyPatch, capsys: pytest.C
     assert (near.bodies == simulation.net).all(axis=1).any() and (near.bodies[:, 1] == simulation.ball).any()
     said = run("net_on_ball.py", 11, monkeypatch=monkeypatch, capsys=capsys).splitlines()
     assert len(said) == 2 and said[0] == "step 0: 0.1030 from the ball, 0 contacts, lowest at 0.60"
+
+
+def test_garments(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """Their counts are those of brute force, and of the program where PLIANT names it."""
+    folder = tmp_path / "set"
+    assert "of 6 drapes have faults" in run("garments.py", folder, 6, 300, monkeypatch=monkeypatch, capsys=capsys)
+    truth = [list(map(int, row.split(","))) for row in (folder / "truth.csv").read_text().splitlines()[1:]]
+    lines = (folder / "list.txt").read_text().splitlines()
+    for number, line in enumerate(lines):
+        meshes = [read_obj(Path(name)) for name in line.split("\t")]
+        (faces, points), (others, where) = meshes
+        pairs = pliant.reference.intersection_pairs(points, faces, where, others)
+        own = pliant.reference.self_intersection_pairs(points, faces)
+        assert truth[number][:3] == [number, len(pairs), len(own)]
+    assert any(row[1] for row in truth) and any(row[2] for row in truth) and not all(row[2] for row in truth)
+    program = os.environ.get("PLIANT")
+    if program is not None:
+        subprocess.run([program, "check", "--self", "--files-from", folder / "list.txt", "--out", tmp_path / "rows", "--ignore-adjacent"], check=False)
+        rows = sorted(map(json.loads, (tmp_path / "rows").read_text().splitlines()), key=lambda row: int(row["line"]))
+        assert [[row["pairs"], row["crossing_edges"]] for row in rows] == [[row[1] + row[2], row[3] + row[4]] for row in truth]
+
+
+def read_obj(path: Path) -> tuple[Any, Any]:
+    rows = [line.split() for line in path.read_text().splitlines()]
+    faces = np.array([[int(corner) - 1 for corner in row[1:]] for row in rows if row[0] == "f"], np.uint32)
+    return faces, np.array([list(map(float, row[1:])) for row in rows if row[0] == "v"])

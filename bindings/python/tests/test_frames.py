@@ -130,6 +130,9 @@ def test_refusals_name_the_frame_and_change_nothing() -> None:
         with pytest.raises(pliant.Error, match="frame 3: body 0: .*vertex 7") as refused:
             pliant.self_intersections(faces, bad, threads=threads)
         assert (refused.value.kind, refused.value.frame, refused.value.vertex, refused.value.body) == ("BadPosition", 3, 7, 0)
+    bad[0, 5, 2] = 1e39
+    with pytest.raises(pliant.Error, match="frame 0: body 0: .*vertex 5"):
+        pliant.self_intersections(faces, bad)
     world = pliant.World()
     body = world.add(faces, positions[0])
     query = world.intersections(pliant.Selection.within(body))

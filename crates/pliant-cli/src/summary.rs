@@ -3,8 +3,9 @@
 use crate::check::many::{Row, Rows};
 use crate::outcome::Outcome;
 use crate::table::grouped;
-use crate::terminal::print_all;
+use crate::terminal::{complain, print_all};
 use clap::{Args, ValueHint};
+use pliant_io::shown;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -37,14 +38,16 @@ struct Sum {
 
 /// Prints how many rows have what.
 pub(crate) fn print(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    let (mut rows, mut clear, mut bytes) = (0, 0, 0);
-    let mut sums: [Sum; 7] = Default::default();
+    let (mut rows, mut clear, mut bytes, mut triangles) = (0, 0, 0, 0);
+    let mut sums: [Sum; 6] = Default::default();
     let mut errors: BTreeMap<String, (u64, u64)> = BTreeMap::new();
     let mut times: Vec<(f64, u64)> = Vec::new();
     for path in &arguments.outputs {
-        for row in Rows::read(path)? {
-            let (row, _) = row?;
+        let mut read = Rows::read(path)?;
+        for row in &mut read {
+            let row = row?;
             rows += 1;
+            triangles += row.triangles.unwrap_or(0);
             bytes += row.bytes.unwrap_or(0);
             times.extend(row.ms.map(|ms| (ms, row.line)));
             if let Some(error) = &row.error {
@@ -60,12 +63,19 @@ pub(crate) fn print(arguments: &Arguments) -> anyhow::Result<Outcome> {
                 sum.name = name;
             }
         }
+        if !read.rest.is_empty() {
+            complain(&format!(
+                "note: {} ends in the middle of a row",
+                shown(path)
+            ));
+        }
     }
     let line = |count: u64, what: &str| format!("{:>12}  {what}", grouped(count));
     let mut lines = vec![format!(
-        "{} checks, {} bytes",
+        "{} checks, {} bytes, {} triangles",
         grouped(rows),
-        grouped(bytes)
+        grouped(bytes),
+        grouped(triangles)
     )];
     lines.push(line(clear, "have no pairs, and nothing inside anything"));
     for Sum { name, rows, all } in sums.iter().filter(|it| it.rows > 0) {
@@ -97,9 +107,8 @@ pub(crate) fn print(arguments: &Arguments) -> anyhow::Result<Outcome> {
     Ok(Outcome::Clear)
 }
 
-fn counts(row: &Row) -> [(&'static str, Option<u64>); 7] {
+fn counts(row: &Row) -> [(&'static str, Option<u64>); 6] {
     [
-        ("triangles", row.triangles),
         ("pairs", row.pairs),
         ("crossing edges", row.crossing_edges),
         ("pairs that share a vertex", row.adjacent),

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ._pliant import Selection, World
+from ._pliant import Selection, World, _as_array
 from ._types import Error, FrameHits
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def intersections(
 
 
 def _pairs(select: Any, meshes: list[tuple[Any, Any]], answer: _Answer, threads: int | Literal["all"]) -> Any:
-    shapes = [_array(positions) for _, positions in meshes]
+    shapes = [_as_array(positions, "positions") for _, positions in meshes]
     if not any(shape.ndim == 3 for shape in shapes):
         given = ", ".join(str(shape.shape) for shape in shapes)
         raise Error(f"positions have shape {given}; they must be (frames, n, 3)", "BadArray")
@@ -58,17 +58,15 @@ def _pairs(select: Any, meshes: list[tuple[Any, Any]], answer: _Answer, threads:
     frames = {}
     wide = any(shape.dtype == np.float64 for shape in shapes)
     for (faces, _), shape in zip(meshes, shapes, strict=True):
-        first = shape if shape.ndim != 3 else shape[0] if len(shape) else np.zeros(shape.shape[1:], shape.dtype)
+        first = shape
+        if shape.ndim == 3:
+            first = shape[0] if len(shape) else np.zeros(shape.shape[1:], shape.dtype)
+            # The tree needs numbers; a frame without is refused with its number.
+            first = np.where(np.abs(first) <= np.finfo(np.float32).max, first, first.dtype.type(0))
         body = world.add(faces, first.astype(np.float64) if wide and first.dtype == np.float32 else first)
         if shape.ndim == 3:
             frames[body] = shape
     found = world.intersections(select(*range(len(meshes)))).of_frames(frames, answer=answer, threads=threads)
     # A hit is body, triangle, body, triangle, of bodies that are known.
-    return FrameHits(found.hits[:, 1::2], found.offsets) if isinstance(found, FrameHits) else found
+    return FrameHits(np.ascontiguousarray(found.hits[:, 1::2]), found.offsets) if isinstance(found, FrameHits) else found
 
-
-def _array(positions: Any) -> Any:
-    """The array itself, or what numpy makes of another object, without a copy where it can."""
-    if not hasattr(positions, "__array__") and hasattr(positions, "__dlpack__"):
-        return np.from_dlpack(positions)
-    return np.asanyarray(positions)

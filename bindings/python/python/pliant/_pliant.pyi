@@ -589,3 +589,6 @@ def edge_edge_distances(corners: _Array) -> PairDistances:
 
 def triangle_contacts(corners: _Array) -> NDArray[np.int8]:
     """Whether and how triangles intersect, pair by pair, without a world: (k,) int8."""
+
+def _as_array(given: _Array, what: str) -> NDArray[Any]:
+    """An array of the caller as numpy has it, without a copy where numpy needs none."""

@@ -26,12 +26,17 @@ pub(crate) struct Many {
     pub(super) files_from: Option<PathBuf>,
     /// With --files-from, how many checks run at a time, each in a process of its own [default: one
     /// for each core]
-    #[arg(long, value_name = "N", requires = "files_from")]
-    jobs: Option<NonZeroUsize>,
+    #[arg(
+        long,
+        value_name = "N",
+        requires = "files_from",
+        value_parser = clap::value_parser!(u16).range(1..=1024)
+    )]
+    jobs: Option<u16>,
     /// With --files-from, only every N-th line: 0/4, 1/4, 2/4 and 3/4 together are all
     #[arg(long, value_name = "I/N", requires = "files_from")]
     pub(super) shard: Option<Shard>,
-    /// With --files-from, the most seconds that a check may take; 0 for any time
+    /// With --files-from, the most seconds that a check may take, up to 1e9; 0 for any time
     #[arg(
         long,
         value_name = "S",
@@ -48,28 +53,25 @@ pub(crate) struct Many {
     /// them
     #[arg(long, value_name = "OUT", requires = "files_from", value_hint = ValueHint::FilePath)]
     pub(super) out: Option<PathBuf>,
-    /// Check lines from standard input, as a process that another has begun
-    #[arg(long, hide = true)]
-    pub(super) as_worker: bool,
 }
 
 impl Many {
     pub(super) fn jobs(&self) -> usize {
         let cores = || thread::available_parallelism().map_or(1, NonZeroUsize::get);
-        self.jobs.map_or_else(cores, NonZeroUsize::get)
+        self.jobs.map_or_else(cores, usize::from)
     }
 
-    /// Share of each job in an amount of memory.
-    pub(super) fn share(&self, memory: u64) -> u64 {
+    /// How much of an amount of memory for all jobs each may have.
+    pub(super) fn per_job(&self, memory: u64) -> u64 {
         memory / self.jobs() as u64
     }
 
-    /// The most that a frame may take, of an amount of memory for all jobs.
+    /// How much of an amount of memory a frame may take.
     ///
     /// A check holds two frames and some more of each beside them.
-    pub(super) fn frame(&self, memory: u64) -> u64 {
+    pub(super) fn per_frame(&self, memory: u64) -> u64 {
         if self.files_from.is_some() {
-            self.share(memory) / 4
+            self.per_job(memory) / 4
         } else {
             memory
         }
@@ -115,7 +117,7 @@ fn seconds(text: &str) -> Result<f64, String> {
     let seconds = text.parse().ok();
     seconds
         .filter(|&it: &f64| (0.0..=1e9).contains(&it))
-        .ok_or_else(|| "write a number of seconds, or 0 for any time: 60".to_owned())
+        .ok_or_else(|| "write a number of seconds up to 1e9, or 0 for any time: 60".to_owned())
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use pliant_io::OpenOptions;
 
 /// How files are read, and what is asked about them.
 pub(super) fn settings(arguments: &Arguments) -> (OpenOptions, Settings) {
-    let max_memory = arguments.many.frame(arguments.max_memory);
+    let max_memory = arguments.many.per_frame(arguments.max_memory);
     let reading = OpenOptions {
         weld: !arguments.no_weld,
         weld_tolerance: arguments.weld,

@@ -68,7 +68,7 @@ fn list(folder: &Path, arguments: &[&str]) -> Said {
     check(
         folder,
         &[
-            &["--files-from", "list", "--out", "out", "--jobs", "2"],
+            &["--files-from", "list", "--out", "out", "--jobs=2"],
             arguments,
         ]
         .concat(),
@@ -207,6 +207,67 @@ fn nothing_is_written_over_or_mixed_up() {
     assert!(!path.join("new").exists());
 }
 
+/// Whatever is not the beginning of a row is somebody's.
+#[test]
+fn no_other_file_is_cut_or_lost() {
+    let folder = files();
+    let path = folder.path();
+    for text in ["precious", "a.obj\tb.obj", "{\"lines\": 3}"] {
+        fs::write(path.join("out"), text).unwrap();
+        list(path, &["--resume"]).assert_refused(&["ends with no row"]);
+        assert_eq!(fs::read_to_string(path.join("out")).unwrap(), text);
+    }
+    for start in ["", "{", "{\"line\":1,\"bod"] {
+        fs::write(path.join("out"), start).unwrap();
+        assert_eq!(list(path, &["--resume"]).code, 2);
+        assert_eq!(rows(&path.join("out")).len(), 8);
+    }
+    let text = fs::read_to_string(path.join("list")).unwrap();
+    let said = check(
+        path,
+        &["--files-from", "list", "--out", "./list", "--force"],
+    );
+    said.assert_refused(&["it is the list"]);
+    assert_eq!(fs::read_to_string(path.join("list")).unwrap(), text);
+    check(path, &["--files-from", ".", "--out", "new"]).assert_refused(&["it is a folder"]);
+    check(path, &["--files-from", "list", "--out", "-"]).assert_refused(&["name one"]);
+    assert!(!path.join("new").exists() && !path.join("-").exists());
+    // Twice in one output, a line would count twice.
+    let row = fs::read_to_string(path.join("out")).unwrap();
+    let row = row.lines().next().unwrap();
+    fs::write(path.join("out"), format!("{row}\n{row}\n")).unwrap();
+    list(path, &["--resume"]).assert_refused(&["two rows for line"]);
+    // Another check has it.
+    let held = fs::File::open(path.join("out")).unwrap();
+    held.lock().unwrap();
+    list(path, &["--force"]).assert_refused(&["another check writes to it"]);
+}
+
+#[test]
+fn limits_are_of_all_jobs_together() {
+    let folder = files();
+    let path = folder.path();
+    fs::write(path.join("list"), "small.obj\n").unwrap();
+    let run = |memory: &str, jobs: &str| {
+        let limits = ["--force", "--max-memory", memory, "--jobs", jobs];
+        check(
+            path,
+            &[&["--files-from", "list", "--out", "out"], &limits[..]].concat(),
+        )
+    };
+    let error = |memory: &str, jobs: &str| {
+        run(memory, jobs);
+        rows(&path.join("out"))[0]["error"].clone()
+    };
+    assert_eq!(error("1M", "1"), Value::Null);
+    let said = error("1K", "8");
+    assert!(
+        said.as_str().unwrap().contains("32 bytes are allowed"),
+        "{said}"
+    );
+    run("1M", "0").assert_refused(&["1..=1024"]);
+}
+
 #[test]
 fn a_summary_says_how_many_of_what() {
     let folder = files();
@@ -274,6 +335,97 @@ mod ended {
         assert_eq!(list(path, &["--timeout", "0", "--force"]).code, 0);
     }
 
+    /// A list that is read once, and a program whose arguments end in `--`.
+    #[test]
+    fn lists_may_be_pipes() {
+        let folder = files();
+        let path = folder.path();
+        for name in ["-", "/dev/stdin"] {
+            let mut child = Command::new(env!("CARGO_BIN_EXE_pliant"))
+                .current_dir(path)
+                .args([
+                    "check",
+                    "--files-from",
+                    name,
+                    "--out",
+                    "out",
+                    "--force",
+                    "-q",
+                    "--",
+                ])
+                .stdin(Stdio::piped())
+                .spawn()
+                .unwrap();
+            let mut lines = child.stdin.take().unwrap();
+            writeln!(lines, "crossing.obj\naway.obj").unwrap();
+            drop(lines);
+            assert_eq!(child.wait().unwrap().code(), Some(1));
+            assert_eq!(rows(&path.join("out")).len(), 2);
+        }
+    }
+
+    /// A signal to all, as Ctrl-C, is no fault of the files; and nobody is left behind.
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn an_end_from_outside_is_no_row() {
+        use std::os::unix::process::CommandExt;
+        let folder = files();
+        let path = folder.path();
+        fs::write(path.join("endless.obj"), endless()).unwrap();
+        fs::write(path.join("list"), "endless.obj\n".repeat(50)).unwrap();
+        for signal in ["-INT", "-TERM", "-HUP", "-KILL"] {
+            let mut child = Command::new(env!("CARGO_BIN_EXE_pliant"))
+                .current_dir(path)
+                .args([
+                    "check",
+                    "--files-from",
+                    "list",
+                    "--out",
+                    "out",
+                    "--force",
+                    "--jobs",
+                    "3",
+                ])
+                .process_group(0)
+                .stderr(Stdio::null())
+                .spawn()
+                .unwrap();
+            let all = loop {
+                let all = workers(child.id());
+                if all.len() == 3 {
+                    break all;
+                }
+                yield_now();
+            };
+            let group = format!("-{}", child.id());
+            let kill = Command::new("kill").args([signal, "--", &group]).status();
+            assert!(kill.unwrap().success());
+            assert_eq!(child.wait().unwrap().code(), None);
+            assert_eq!(rows(&path.join("out")).len(), 0);
+            for worker in all {
+                while lives(&worker) {
+                    yield_now();
+                }
+            }
+        }
+    }
+
+    /// Whether a process runs: one that has ended stays where nobody asks for its end.
+    #[cfg(target_os = "linux")]
+    fn lives(process: &str) -> bool {
+        let stat = fs::read_to_string(format!("/proc/{process}/stat"));
+        stat.is_ok_and(|stat| !stat.contains(") Z "))
+    }
+
+    /// Processes that a process has begun.
+    #[cfg(target_os = "linux")]
+    fn workers(of: u32) -> Vec<String> {
+        let tasks = fs::read_dir(format!("/proc/{of}/task")).unwrap().flatten();
+        let of_task = tasks.map(|task| fs::read_to_string(task.path().join("children")));
+        let all: String = of_task.map(Result::unwrap_or_default).collect();
+        all.split_whitespace().map(str::to_owned).collect()
+    }
+
     #[test]
     #[cfg(target_os = "linux")]
     fn a_process_that_is_killed_costs_one_row() {
@@ -289,16 +441,10 @@ mod ended {
             .unwrap();
         let mut lines = child.stdin.take().unwrap();
         writeln!(lines, "endless.obj").unwrap();
-        let tasks = format!("/proc/{}/task", child.id());
-        let workers = || {
-            let tasks = fs::read_dir(&tasks).unwrap().flatten();
-            let of_task = tasks.map(|task| fs::read_to_string(task.path().join("children")));
-            of_task.map(Result::unwrap_or_default).collect::<String>()
-        };
         let first = loop {
-            match workers().trim() {
-                "" => yield_now(),
-                worker => break worker.to_owned(),
+            match workers(child.id()).pop() {
+                None => yield_now(),
+                Some(worker) => break worker,
             }
         };
         let kill = |worker: &str| Command::new("kill").args(["-9", worker]).status().unwrap();

@@ -1,20 +1,17 @@
 //! Rows: what a check of one line of a list found, or why there was none.
 
+use super::list::Line;
 use crate::check::arguments::Arguments;
 use crate::check::settings::settings;
+use anyhow::anyhow;
 use pliant_check::{Check, Found};
+use pliant_io::shown;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
+use std::num::NonZeroUsize;
 use std::time::Instant;
-
-/// A line of a list: its number from 1, and the bodies that it names.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-pub(super) struct Line {
-    pub(super) line: u64,
-    pub(super) bodies: Vec<String>,
-}
 
 /// A row of the output. Counts are sums over the frames that were checked.
 ///
@@ -48,10 +45,9 @@ pub(crate) struct Row {
 }
 
 impl Row {
-    /// Row of a line that has no answer.
-    pub(super) fn failed(line: &Line, error: impl Into<String>) -> Self {
+    fn empty(line: &Line) -> Self {
         Self {
-            line: line.line,
+            line: line.number,
             bodies: line.bodies.clone(),
             bytes: None,
             sha256: None,
@@ -64,17 +60,26 @@ impl Row {
             inside: None,
             ms: None,
             peak_bytes: None,
+            error: None,
+        }
+    }
+
+    /// Row of a line that has no answer.
+    pub(super) fn failed(line: &Line, error: impl Into<String>) -> Self {
+        Self {
             error: Some(error.into()),
+            ..Self::empty(line)
         }
     }
 
     /// Checks the bodies of a line.
     pub(super) fn of(arguments: &Arguments, line: &Line) -> Self {
         let begun = Instant::now();
-        let mut row = Self::failed(line, "");
+        let mut row = Self::empty(line);
         let found = crate::edge::caught(|| row.fill(arguments));
         row.error = found.err().map(|error| crate::advice::with_advice(&error));
-        row.ms = Some(begun.elapsed().as_secs_f64() * 1e3);
+        let microseconds = begun.elapsed().as_micros();
+        row.ms = Some(microseconds as f64 / 1e3);
         row
     }
 
@@ -85,6 +90,8 @@ impl Row {
         settings.crossing_edges = arguments.within.is_none();
         settings.inside = true;
         settings.places = arguments.crossing;
+        // The other cores have jobs of their own.
+        settings.options.threads = NonZeroUsize::MIN;
         let mut check = Check::open(&self.bodies, &reading, &settings)?;
         check.begin()?;
         let triangles = check.sources().iter().map(|it| it.triangles().len() as u64);
@@ -154,9 +161,11 @@ fn hashed(bodies: &[String]) -> anyhow::Result<(u64, String)> {
     let (mut hash, mut bytes) = (Sha256::new(), 0);
     for body in bodies {
         for path in pliant_io::files(body)? {
-            let mut file = BufReader::with_capacity(1 << 16, File::open(path)?);
+            let cannot = |error| anyhow!("{}: cannot be read: {error}", shown(&path));
+            let file = File::open(&path).map_err(cannot)?;
+            let mut file = BufReader::with_capacity(1 << 16, file);
             loop {
-                let some = file.fill_buf()?;
+                let some = file.fill_buf().map_err(cannot)?;
                 let count = some.len();
                 if count == 0 {
                     break;

@@ -2,28 +2,48 @@
 //!
 //! A worker reads lines of JSON from its standard input and writes a row for each. So a file that
 //! kills it, or that is too slow, costs one row; another worker takes its place. Its memory is
-//! limited by the system, where that has such limits.
+//! limited by the system, where that has such limits. It is in a process group of its own, so that
+//! Ctrl-C ends no check that would then count as failed. When its standard input ends, it ends.
 
-use super::row::{Line, Row};
+use super::list::Line;
+use super::row::Row;
 use crate::check::arguments::Arguments;
-use anyhow::Context;
+use anyhow::{Context, anyhow};
 use std::io::{self, BufRead, BufReader, Read, Write};
+use std::path::Path;
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-/// Bytes that a worker holds beside the data of a check: its code, and its stack.
-const BESIDE: u64 = 96 << 20;
+/// Tells a process that it is a worker.
+const IS_WORKER: &str = "PLIANT_IS_WORKER";
+/// Bytes that a worker holds beside the data of a check: the library's, and its threads' stacks.
+const BESIDE: u64 = 64 << 20;
 /// How much of what a worker says on standard error is kept.
-const SAID: usize = 2000;
+const SAID: u64 = 2000;
+
+/// Whether this process is a worker.
+pub(super) fn is_worker() -> bool {
+    std::env::var_os(IS_WORKER).is_some()
+}
 
 /// Checks the lines that another process writes to standard input.
 pub(super) fn work(arguments: &Arguments) -> anyhow::Result<()> {
-    limit_memory(arguments.many.share(arguments.max_memory));
+    limit_memory(arguments.many.per_job(arguments.max_memory));
+    let (send, lines) = channel();
+    thread::spawn(move || {
+        for line in io::stdin().lock().lines().map_while(Result::ok) {
+            if send.send(line).is_err() {
+                break;
+            }
+        }
+        // Nobody waits for a row any more, and a check may take hours.
+        std::process::exit(0);
+    });
     let mut out = io::stdout().lock();
-    for line in io::stdin().lock().lines() {
-        let line: Line = serde_json::from_str(&line?)?;
+    for line in lines {
+        let line: Line = serde_json::from_str(&line)?;
         begin_peak();
         let mut row = Row::of(arguments, &line);
         row.peak_bytes = peak();
@@ -34,15 +54,15 @@ pub(super) fn work(arguments: &Arguments) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Has the system refuse memory beyond a limit, and what lies beside it.
+/// Has the system refuse memory beyond a limit, and some beside it.
 #[cfg(unix)]
 fn limit_memory(limit: u64) {
     use rustix::process::{Resource, getrlimit, setrlimit};
-    let mut of_space = getrlimit(Resource::As);
+    let mut of_data = getrlimit(Resource::Data);
     let limit = limit.saturating_add(BESIDE);
-    of_space.current = Some(of_space.maximum.map_or(limit, |most| most.min(limit)));
+    of_data.current = Some(of_data.maximum.map_or(limit, |most| most.min(limit)));
     // Without it large files are still refused, as in any check.
-    let _ = setrlimit(Resource::As, of_space);
+    let _ = setrlimit(Resource::Data, of_data);
 }
 
 #[cfg(not(unix))]
@@ -79,15 +99,26 @@ enum Lost {
 
 impl Worker {
     fn begin() -> anyhow::Result<Self> {
-        let program = std::env::current_exe().context("cannot find this program")?;
-        let mut child = Command::new(program)
+        // The program that runs, even if another stands in its place now.
+        let running = Path::new("/proc/self/exe");
+        let program = if running.exists() {
+            running.to_owned()
+        } else {
+            std::env::current_exe().context("cannot find this program")?
+        };
+        let mut command = Command::new(program);
+        command
             .args(std::env::args_os().skip(1))
-            .arg("--as-worker")
+            .env(IS_WORKER, "1")
+            .env_remove("RUST_BACKTRACE")
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .context("cannot begin a process for a job")?;
+            .stderr(Stdio::piped());
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let begun = command.spawn();
+        let mut child =
+            begun.map_err(|error| anyhow!("cannot begin a process for a job: {error}"))?;
         let pipes = (child.stdin.take(), child.stdout.take(), child.stderr.take());
         let (Some(lines), Some(out), Some(mut errors)) = pipes else {
             anyhow::bail!("a process for a job has no pipes");
@@ -102,7 +133,7 @@ impl Worker {
         });
         let said = thread::spawn(move || {
             let mut said = Vec::new();
-            let _ = errors.by_ref().take(SAID as u64).read_to_end(&mut said);
+            let _ = errors.by_ref().take(SAID).read_to_end(&mut said);
             // The rest is read and dropped, so that the worker never waits.
             let _ = io::copy(&mut errors, &mut io::sink());
             String::from_utf8_lossy(&said).into_owned()
@@ -132,19 +163,20 @@ impl Worker {
         }
     }
 
-    /// Ends a worker, and says how it has ended.
+    /// Ends a worker, and says how it has ended: alike for every run, without numbers of processes.
     fn end(mut self) -> String {
         drop(self.lines);
         let how = self.child.wait();
         let said = self.said.join().unwrap_or_default();
-        let said = said.lines().filter(|it| !it.trim().is_empty());
-        let said: Vec<&str> = said.take(2).collect();
-        let how = how.map_or_else(|error| error.to_string(), ended);
-        if said.is_empty() {
-            how
-        } else {
-            format!("{how}: {}", said.join(" "))
+        if said.contains("memory allocation of") {
+            return "it needed more memory than its share of --max-memory, which all jobs have \
+                    together"
+                .to_owned();
         }
+        if said.contains("has overflowed its stack") {
+            return "it needed more stack than there is".to_owned();
+        }
+        how.map_or_else(|error| error.to_string(), ended)
     }
 }
 

@@ -126,7 +126,9 @@ def write(path: Path, faces: NDArray[np.uint32], points: Array) -> None:
 
 
 def main() -> None:
-    out, count, triangles = Path(sys.argv[1]), *map(int, (*sys.argv[2:], 10, 20_000)[:2])
+    out = Path(sys.argv[1])
+    count = int(sys.argv[2]) if len(sys.argv) > 2 else 10
+    triangles = int(sys.argv[3]) if len(sys.argv) > 3 else 20_000
     out.mkdir(parents=True, exist_ok=True)
     rows, listed, spent = ["drape,with_body,with_itself,edges_with_body,edges_with_itself"], [], 0.0
     for seed in range(count):

@@ -49,7 +49,7 @@ def test_each_frame_is_answered_as_alone(dtype: Any, threads: Any) -> None:
 def test_two_meshes_of_which_one_may_stay() -> None:
     faces, positions = sheets(7)
     other = positions[::-1] + np.array([0.25, 0, 0.125])
-    for a, b in ((positions, other), (positions, other[2]), (positions[1], other), (positions, other.astype(np.float32))):
+    for a, b in ((positions, other), (positions, other[2]), (positions[1], other), (positions, other.astype(np.float32)), (positions.astype(">f4"), other)):
         found = pliant.intersections(faces, a, faces, b, threads=2)
         for number in range(7):
             shapes = [shape[number] if shape.ndim == 3 else shape for shape in (a, b)]
@@ -163,6 +163,12 @@ def test_refusals_name_the_frame_and_change_nothing() -> None:
         only = wide.add(faces, positions[0])
         wide.intersections(pliant.Selection.within(only)).of_frames({only: positions}, threads=2)
     assert world.positions(body).tolist() == positions[0].tolist()
+
+
+def test_hits_stay_by_themselves() -> None:
+    faces, positions = sheets(3)
+    hits = pliant.self_intersections(faces, positions).hits
+    assert hits.flags.c_contiguous and hits.flags.owndata
 
 
 def test_arrays_in_other_layouts_are_read() -> None:

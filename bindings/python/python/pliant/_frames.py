@@ -56,14 +56,15 @@ def _pairs(select: Any, meshes: list[tuple[Any, Any]], answer: _Answer, threads:
         raise Error(f"positions have shape {given}; they must be (frames, n, 3)", "BadArray")
     world = World()
     frames = {}
-    wide = any(shape.dtype == np.float64 for shape in shapes)
+    wide = any(shape.dtype.kind == "f" and shape.dtype.itemsize == 8 for shape in shapes)
     for (faces, _), shape in zip(meshes, shapes, strict=True):
         first = shape
         if shape.ndim == 3:
             first = shape[0] if len(shape) else np.zeros(shape.shape[1:], shape.dtype)
             # The tree needs numbers; a frame without is refused with its number.
             first = np.where(np.abs(first) <= np.finfo(np.float32).max, first, first.dtype.type(0))
-        body = world.add(faces, first.astype(np.float64) if wide and first.dtype == np.float32 else first)
+        widened = wide and shape.dtype.kind == "f" and shape.dtype.itemsize == 4
+        body = world.add(faces, first.astype(np.float64) if widened else first)
         if shape.ndim == 3:
             frames[body] = shape
     found = world.intersections(select(*range(len(meshes)))).of_frames(frames, answer=answer, threads=threads)

@@ -84,6 +84,7 @@ __all__ = [
     "triangle_contacts",
     "vertex_triangle_distances",
     "vertex_triangle_impacts",
+    "_as_array",
 ]
 
 __version__: str
@@ -590,5 +591,4 @@ def edge_edge_distances(corners: _Array) -> PairDistances:
 def triangle_contacts(corners: _Array) -> NDArray[np.int8]:
     """Whether and how triangles intersect, pair by pair, without a world: (k,) int8."""
 
-def _as_array(given: _Array, what: str) -> NDArray[Any]:
-    """An array of the caller as numpy has it, without a copy where numpy needs none."""
+def _as_array(given: _Array, what: str) -> NDArray[Any]: ...

@@ -4,11 +4,11 @@
 //! has taken. Frames are copied one at a time, so a batch is never in memory twice. Invariant: an
 //! answer depends on its frame alone, since sorted lists do not depend on earlier questions.
 
-use super::{Hit, Kind, Made, Question, Want, Wanted};
 use crate::answers::{Any, Column, class};
 use crate::arrays::{self, Coordinates};
 use crate::error::{Refused, Result, refused};
 use crate::options::{self, Threads};
+use crate::queries::{Hit, Kind, Made, Prepare, Question, Want, Wanted};
 use crate::selection::Body;
 use crate::signals::interruptible;
 use crate::state::{Shared, State};
@@ -120,13 +120,16 @@ pub(crate) fn each_frame<T: Send>(
         interruptible(|question| {
             let work = &work;
             let answers = thread::scope(|scope| {
-                let others = 1..frames.threads.min(frames.count);
-                let others: Vec<_> = others
-                    .map(|_| {
-                        let copy = state.another();
-                        scope.spawn(move || work(copy, question))
-                    })
-                    .collect();
+                let mut others = Vec::new();
+                for _ in 1..frames.threads.min(frames.count) {
+                    let copy = state.another();
+                    let other = thread::Builder::new();
+                    match other.spawn_scoped(scope, move || work(copy, question)) {
+                        Ok(other) => others.push(other),
+                        // The system has no more; fewer do the same.
+                        Err(_) => break,
+                    }
+                }
                 let mut answers = work(state.another(), question);
                 for other in others {
                     match other.join() {
@@ -193,9 +196,10 @@ impl Want for Join {
         Ok(|lists| {
             let mut all = Vec::new();
             for list in lists {
-                if let Ok(hits) = list.downcast::<Vec<H>>() {
-                    all.extend(*hits);
-                }
+                let Ok(hits) = list.downcast::<Vec<H>>() else {
+                    unreachable!("a question has hits of one type");
+                };
+                all.extend(*hits);
             }
             let columns = H::columns(&all);
             Box::new(move |py| H::many(columns, py))
@@ -244,6 +248,8 @@ impl<K: Kind> Question<K> {
     ) -> Result<Any<'py>> {
         let answer = options::named("answer", answer, &ANSWERS)?;
         let frames = Frames::of(&self.world, frames, threads)?;
+        // Trees are built once, and copied.
+        self.ask(py, Prepare)?;
         Ok(match answer {
             Answer::Counts => {
                 let counts = self.each_frame(py, &frames, Count)?.into_iter();

@@ -149,7 +149,7 @@ query_class! {
     /// alone. answer says how much is wanted of each frame:
     ///
     /// - "rows": all hits, sorted, frame by frame: a FrameHits
-    /// - "first": of each frame that has hits the first of these: a FrameHits
+    /// - "first": of each frame that has hits the first of these: a FrameHits; it costs as "rows"
     /// - "counts": numbers of hits, (frames,) int64
     /// - "any": whether there is one, (frames,) bool; the cheapest
     ///
@@ -157,7 +157,8 @@ query_class! {
     /// the kinds of all() and World.set_positions. BadOption for threads where the world has more
     /// than one of its own. Nothing is returned of the other frames then.
     ///
-    /// Cost: copies of the world, one a thread; then for each frame as set_positions and all().
+    /// Cost: a copy of the world with its trees for each thread; then for each frame as
+    /// set_positions and all().
     #[pyo3(signature = (frames, *, answer="rows", threads=Threads::Count(1)),
         text_signature = "($self, frames, *, answer=\"rows\", threads=1)")]
     fn of_frames<'py>(

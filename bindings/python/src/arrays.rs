@@ -463,8 +463,8 @@ fn as_numpy<'py>(given: &Any<'py>, what: &str) -> Result<Bound<'py, PyUntypedArr
     Ok(array.cast_into().map_err(PyErr::from)?)
 }
 
-/// Kinds of devices, as DLPack numbers them, whose arrays are in the memory of the processor: the
-/// processor itself, and memory of CUDA and ROCm that it sees.
+/// Kinds of devices, by DLPack, with arrays in the memory of the processor: the processor itself,
+/// and memory of CUDA and ROCm that it sees.
 const READ_HERE: [i32; 4] = [1, 3, 11, 13];
 
 /// Refuses an array on another device, which some libraries would copy without a word.

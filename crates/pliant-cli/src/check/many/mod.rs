@@ -122,8 +122,8 @@ impl Shared<'_> {
 
     /// The next line without a row.
     ///
-    /// Lines are compared with those of the output in order: of another list none is checked behind
-    /// the first that differs.
+    /// The list is compared with the output in order, so that of another list no line is checked
+    /// behind the first that differs.
     fn next_line(&self) -> anyhow::Result<Option<Line>> {
         let mut lines = lock(&self.lines);
         while !self.has_failed.load(Ordering::Relaxed) {

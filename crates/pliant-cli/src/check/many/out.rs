@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 /// How every row begins.
 const BEGINNING: &[u8] = b"{\"line\":";
-/// Most bytes of a row: many times those of the longest line.
+/// Most bytes of a row: many times the longest line.
 const LONGEST: u64 = 1 << 20;
 
 /// How many rows of an output are of which kind.

@@ -1,11 +1,10 @@
 //! `pliant summary`: how many of what the rows of `pliant check --files-from` say.
 
-use crate::check::many::{Row, Rows};
+use crate::check::many::{Row, files};
 use crate::outcome::Outcome;
 use crate::table::grouped;
-use crate::terminal::{complain, print_all};
+use crate::terminal::print_all;
 use clap::{Args, ValueHint};
-use pliant_io::shown;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -43,8 +42,7 @@ pub(crate) fn print(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let mut errors: BTreeMap<String, (u64, u64)> = BTreeMap::new();
     let mut times: Vec<(f64, u64)> = Vec::new();
     for path in &arguments.outputs {
-        let mut read = Rows::read(path)?;
-        for row in &mut read {
+        for row in files::open(path)? {
             let row = row?;
             rows += 1;
             triangles += row.triangles.unwrap_or(0);
@@ -62,12 +60,6 @@ pub(crate) fn print(arguments: &Arguments) -> anyhow::Result<Outcome> {
                 sum.all += count;
                 sum.name = name;
             }
-        }
-        if !read.rest.is_empty() {
-            complain(&format!(
-                "note: {} ends in the middle of a row",
-                shown(path)
-            ));
         }
     }
     let line = |count: u64, what: &str| format!("{:>12}  {what}", grouped(count));

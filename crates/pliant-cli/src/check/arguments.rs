@@ -163,7 +163,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "T", default_value = "all", value_parser = threads)]
     pub(super) threads: NonZeroUsize,
     /// A table by frame, one JSON object, annotations for GitHub Actions, or a line for each pair:
-    /// FRAME BODY TRIANGLE BODY TRIANGLE. jsonl, a JSON object for each check, is for --files-from
+    /// FRAME BODY TRIANGLE BODY TRIANGLE. jsonl, a JSON object for each check, and parquet are for
+    /// --files-from
     #[arg(long, value_enum, default_value_t = Format::Table)]
     pub(super) format: Format,
     /// Write the triangles that intersect for ParaView, as .vtp or .vtu, and the curves in which
@@ -241,6 +242,7 @@ pub(super) enum Format {
     Github,
     Lines,
     Jsonl,
+    Parquet,
 }
 
 /// Parses a distance: at least 0 and finite.

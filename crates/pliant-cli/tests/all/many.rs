@@ -299,6 +299,70 @@ fn a_summary_says_how_many_of_what() {
     );
 }
 
+/// Counts of a summary, without times.
+#[cfg(feature = "parquet")]
+fn summary(folder: &Path, name: &str) -> String {
+    let said = pliant(folder, &["summary", name]);
+    assert_eq!(said.code, 0, "{}", said.err);
+    let lines = said
+        .out
+        .lines()
+        .filter(|it| !it.starts_with("A check takes"));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+#[cfg(feature = "parquet")]
+fn a_table_has_the_rows_of_lines() {
+    let folder = files();
+    let path = folder.path();
+    let parquet = |arguments: &[&str]| {
+        let said = [
+            "--files-from",
+            "list",
+            "--out",
+            "t",
+            "--jobs=2",
+            "--format",
+            "parquet",
+        ];
+        check(path, &[&said, arguments].concat())
+    };
+    let lines = list(path, &[]);
+    assert_eq!(
+        parquet(&[]).err.replace("; t says", "; out says"),
+        lines.err
+    );
+    assert!(fs::read(path.join("t")).unwrap().starts_with(b"PAR1"));
+    assert!(!path.join("t.rows").exists());
+    assert_eq!(summary(path, "t"), summary(path, "out"));
+    parquet(&[]).assert_refused(&["a file is there"]);
+    // Gone on with, from the table and from the lines that wait beside it.
+    let more = fs::read_to_string(path.join("list")).unwrap() + "small.obj\n";
+    fs::write(path.join("list"), more).unwrap();
+    parquet(&["--resume"]).assert_refused(&["4 lines clear"]);
+    list(path, &["--resume"]);
+    assert_eq!(summary(path, "t"), summary(path, "out"));
+    let text = fs::read(path.join("out")).unwrap();
+    fs::write(path.join("t.rows"), &text[..text.len() / 2]).unwrap();
+    parquet(&[]).assert_refused(&["a file is there"]);
+    fs::remove_file(path.join("t")).unwrap();
+    parquet(&[]).assert_refused(&["t.rows: a file is there"]);
+    parquet(&["--resume"]).assert_refused(&["4 lines clear"]);
+    assert_eq!(summary(path, "t"), summary(path, "out"));
+}
+
+#[test]
+#[cfg(not(feature = "parquet"))]
+fn a_program_without_tables_says_so() {
+    let folder = files();
+    let path = folder.path();
+    list(path, &["--format", "parquet"]).assert_refused(&["--features parquet"]);
+    fs::write(path.join("t"), "PAR1...PAR1").unwrap();
+    pliant(path, &["summary", "t"]).assert_refused(&["--features parquet"]);
+    assert!(!path.join("out").exists());
+}
+
 /// A check that takes too long, and one whose process is killed, are rows like others.
 #[cfg(unix)]
 mod ended {

@@ -3,12 +3,14 @@
 //! A thread for each job hands lines of the list to its worker and writes the rows that come back.
 //! Whatever a file does, its line has one row, and the others have theirs.
 
+pub(crate) mod files;
 mod list;
 mod out;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod row;
 mod worker;
 
-pub(crate) use out::Rows;
 pub(crate) use row::Row;
 
 use super::arguments::{Arguments, Format};
@@ -32,13 +34,24 @@ pub(super) fn check(arguments: &Arguments) -> Option<anyhow::Result<Outcome>> {
     if worker::is_worker() {
         return Some(worker::work(arguments).map(|()| Outcome::Clear));
     }
-    let checked = match &arguments.many.out {
-        Some(path) => {
-            check_all(arguments, list, path).and_then(|tally| said(arguments, path, tally))
-        }
-        None => Err(anyhow!("name where rows are written with `--out`")),
-    };
-    Some(checked)
+    let path = arguments.many.out.as_deref();
+    let path = path.ok_or_else(|| anyhow!("name where rows are written with `--out`"));
+    Some(path.and_then(|path| {
+        let tally = match arguments.format {
+            Format::Table | Format::Jsonl => check_all(arguments, list, path)?,
+            Format::Parquet => {
+                files::begin(path, arguments.many.resume, arguments.pictures.over)?;
+                let tally = check_all(arguments, list, &files::beside(path))?;
+                files::end(path)?;
+                tally
+            }
+            _ => bail!(
+                "--files-from writes rows, one JSON object a line; use `--format jsonl`, or \
+                 parquet"
+            ),
+        };
+        said(arguments, path, tally)
+    }))
 }
 
 /// The work that jobs share.
@@ -55,9 +68,6 @@ struct Shared<'a> {
 
 fn check_all(arguments: &Arguments, list: &Path, path: &Path) -> anyhow::Result<Tally> {
     let many = &arguments.many;
-    if !matches!(arguments.format, Format::Table | Format::Jsonl) {
-        bail!("--files-from writes rows, one JSON object a line; use `--format jsonl`");
-    }
     let shard = many.shard.unwrap_or(Shard::ALL);
     let lines = Mutex::new(Lines::of(list, shard)?);
     let (out, done) = Out::open(path, list, many.resume, arguments)?;

@@ -169,18 +169,18 @@ fn may_be_written(path: &Path, list: &Path) -> anyhow::Result<bool> {
 }
 
 /// Rows of an output.
-pub(crate) struct Rows {
+pub(super) struct Rows {
     path: PathBuf,
     read: BufReader<File>,
     line: u64,
     /// Bytes of the rows so far.
     end: u64,
     /// Bytes behind the last row: the beginning of one, where a check was left early.
-    pub(crate) rest: Vec<u8>,
+    rest: Vec<u8>,
 }
 
 impl Rows {
-    pub(crate) fn read(path: &Path) -> anyhow::Result<Self> {
+    pub(super) fn read(path: &Path) -> anyhow::Result<Self> {
         let cannot = |error| anyhow!("cannot read {}: {error}", shown(path));
         let file = File::open(path).map_err(cannot)?;
         if !file.metadata().is_ok_and(|it| it.is_file()) {

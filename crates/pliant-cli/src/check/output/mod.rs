@@ -41,8 +41,9 @@ impl Output {
             Format::Json => Box::new(json::Json::new(arguments)),
             Format::Github => Box::new(github::Github::new(arguments)),
             Format::Lines => Box::new(lines::Lines::new(arguments)),
-            Format::Jsonl => anyhow::bail!(
-                "--format jsonl has a line for each check of a list; name one with `--files-from`"
+            Format::Jsonl | Format::Parquet => anyhow::bail!(
+                "--format jsonl and parquet have a row for each check of a list; name one with \
+                 `--files-from`"
             ),
         };
         let mut output = Self {

@@ -456,7 +456,7 @@ mod ended {
                 .unwrap();
             let all = loop {
                 let all = workers(child.id());
-                if all.len() == 3 {
+                if all.len() == 3 && all.iter().all(|worker| is_a_group(worker)) {
                     break all;
                 }
                 yield_now();
@@ -472,6 +472,14 @@ mod ended {
                 }
             }
         }
+    }
+
+    /// Whether a process leads a group of its own, as a worker does as soon as it runs.
+    #[cfg(target_os = "linux")]
+    fn is_a_group(process: &str) -> bool {
+        let stat = fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
+        let behind_name = stat.rsplit(") ").next().unwrap_or_default();
+        behind_name.split(' ').nth(2) == Some(process)
     }
 
     /// Whether a process runs: one that has ended stays where nobody asks for its end.

@@ -3,8 +3,9 @@
 use crate::check::many::{Row, files};
 use crate::outcome::Outcome;
 use crate::table::grouped;
-use crate::terminal::print_all;
+use crate::terminal::{complain, print_all};
 use clap::{Args, ValueHint};
+use pliant_io::shown;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -27,10 +28,19 @@ Exit code 0: the rows were read. 2: they could not be.";
 /// How many different errors are listed.
 const ERRORS: usize = 10;
 
+/// Names of the counts of a row.
+const COUNTED: [&str; 6] = [
+    "pairs",
+    "crossing edges",
+    "pairs that share a vertex",
+    "pairs that touch",
+    "pairs without area",
+    "components inside bodies",
+];
+
 /// Sum of a count, and how many rows have it above 0.
 #[derive(Default)]
 struct Sum {
-    name: &'static str,
     rows: u64,
     all: u64,
 }
@@ -38,7 +48,7 @@ struct Sum {
 /// Prints how many rows have what.
 pub(crate) fn print(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let (mut rows, mut clear, mut bytes, mut triangles) = (0, 0, 0, 0);
-    let mut sums: [Sum; 6] = Default::default();
+    let mut sums: [Sum; COUNTED.len()] = Default::default();
     let mut errors: BTreeMap<String, (u64, u64)> = BTreeMap::new();
     let mut times: Vec<(f64, u64)> = Vec::new();
     for path in &arguments.outputs {
@@ -54,12 +64,17 @@ pub(crate) fn print(arguments: &Arguments) -> anyhow::Result<Outcome> {
                 continue;
             }
             clear += u64::from(!row.meets(true));
-            for ((name, count), sum) in counts(&row).into_iter().zip(&mut sums) {
+            for (count, sum) in counts(&row).into_iter().zip(&mut sums) {
                 let count = count.unwrap_or(0);
                 sum.rows += u64::from(count > 0);
                 sum.all += count;
-                sum.name = name;
             }
+        }
+        if files::is_cut(path) {
+            complain(&format!(
+                "note: {} ends in the middle of a row",
+                shown(path)
+            ));
         }
     }
     let line = |count: u64, what: &str| format!("{:>12}  {what}", grouped(count));
@@ -70,7 +85,7 @@ pub(crate) fn print(arguments: &Arguments) -> anyhow::Result<Outcome> {
         grouped(triangles)
     )];
     lines.push(line(clear, "have no pairs, and nothing inside anything"));
-    for Sum { name, rows, all } in sums.iter().filter(|it| it.rows > 0) {
+    for (name, Sum { rows, all }) in COUNTED.iter().zip(&sums).filter(|(_, it)| it.rows > 0) {
         lines.push(line(
             *rows,
             &format!("have {name}, {} in all", grouped(*all)),
@@ -99,14 +114,15 @@ pub(crate) fn print(arguments: &Arguments) -> anyhow::Result<Outcome> {
     Ok(Outcome::Clear)
 }
 
-fn counts(row: &Row) -> [(&'static str, Option<u64>); 6] {
+/// Counts of a row, in the order of [`COUNTED`].
+fn counts(row: &Row) -> [Option<u64>; COUNTED.len()] {
     [
-        ("pairs", row.pairs),
-        ("crossing edges", row.crossing_edges),
-        ("pairs that share a vertex", row.adjacent),
-        ("pairs that touch", row.touching),
-        ("pairs without area", row.degenerate),
-        ("components inside bodies", row.inside),
+        row.pairs,
+        row.crossing_edges,
+        row.adjacent,
+        row.touching,
+        row.degenerate,
+        row.inside,
     ]
 }
 

@@ -27,7 +27,8 @@ def self_intersections(faces: Any, positions: Any, *, answer: _Answer = "rows", 
     self_intersection_pairs answers it, whatever the others are and however many threads there are.
     Answers and errors are those of Query.of_frames: "rows", "first", "counts" or "any".
 
-    Cost: one tree, built on the first frame, and for each frame what World.intersections costs.
+    Cost: one tree, built on the first frame and copied for each thread; then for each frame what
+    World.intersections costs.
     """
     return _pairs(Selection.within, [(faces, positions)], answer, threads)
 
@@ -70,4 +71,3 @@ def _pairs(select: Any, meshes: list[tuple[Any, Any]], answer: _Answer, threads:
     found = world.intersections(select(*range(len(meshes)))).of_frames(frames, answer=answer, threads=threads)
     # A hit is body, triangle, body, triangle, of bodies that are known.
     return FrameHits(np.ascontiguousarray(found.hits[:, 1::2]), found.offsets) if isinstance(found, FrameHits) else found
-

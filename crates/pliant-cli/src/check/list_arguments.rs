@@ -41,6 +41,7 @@ pub(crate) struct Many {
         long,
         value_name = "S",
         default_value = "300",
+        requires = "files_from",
         allow_negative_numbers = true,
         value_parser = seconds
     )]

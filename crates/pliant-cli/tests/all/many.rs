@@ -181,7 +181,7 @@ fn nothing_is_written_over_or_mixed_up() {
     list(path, &["--resume"]).assert_refused(&["out, line 1: no row of"]);
     pliant(path, &["summary", "out"]).assert_refused(&["out, line 1: no row of"]);
     check(path, &["--files-from", "none", "--out", "new"]).assert_refused(&["the list none"]);
-    let refused: [(&[&str], &str); 6] = [
+    let refused: [(&[&str], &str); 7] = [
         (&["--files-from", "list"], "--out"),
         (
             &["--files-from", "list", "--out", "new", "away.obj"],
@@ -200,6 +200,7 @@ fn nothing_is_written_over_or_mixed_up() {
             "seconds",
         ),
         (&["away.obj", "--format", "jsonl"], "--files-from"),
+        (&["away.obj", "--timeout", "3"], "--files-from"),
     ];
     for (arguments, words) in refused {
         check(path, arguments).assert_refused(&[words]);
@@ -290,7 +291,17 @@ fn a_summary_says_how_many_of_what() {
             said.out
         );
     }
-    // Shards are summed up.
+    assert_eq!(said.err, "");
+    // Shards are summed up. A part of a row is none, which is said.
+    let text = fs::read_to_string(path.join("out")).unwrap();
+    fs::write(path.join("cut"), &text[..text.len() - 9]).unwrap();
+    let cut = pliant(path, &["summary", "cut"]);
+    assert!(cut.out.starts_with("7 checks"), "{}", cut.out);
+    assert!(
+        cut.err.contains("cut ends in the middle of a row"),
+        "{}",
+        cut.err
+    );
     let twice = pliant(path, &["summary", "out", "out"]);
     assert!(
         twice.out.contains("2    no such file (as line 7)"),

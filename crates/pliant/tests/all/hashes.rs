@@ -279,6 +279,19 @@ fn world_of<S: Scalar>(
     (world, bodies)
 }
 
+/// Gives all bodies their shapes.
+fn set_all<S: Scalar>(
+    world: &mut World<S>,
+    bodies: &[BodyId],
+    shapes: &Shapes,
+    widen: fn(f32) -> S,
+) {
+    for (&body, positions) in bodies.iter().zip(shapes) {
+        let positions = widened(positions, widen);
+        world.set_positions(body, &positions).unwrap();
+    }
+}
+
 /// Shapes on the way from one step to another.
 fn toward(from: &Shapes, to: &Shapes, part: f32) -> Shapes {
     let point = |(from, to): (&[f32; 3], &[f32; 3])| {
@@ -298,11 +311,7 @@ fn near_hash<S: Scalar>(
     let (mut world, bodies) = world_of(case, scene, &steps[0], widen);
     let (mut fnv, mut count) = (Fnv::default(), 0);
     for (step, shapes) in steps.iter().enumerate() {
-        for (&body, positions) in bodies.iter().zip(shapes) {
-            world
-                .set_positions(body, &widened(positions, widen))
-                .unwrap();
-        }
+        set_all(&mut world, &bodies, shapes, widen);
         let next = &steps[(step + 1) % steps.len()];
         for on_the_way in [false, true] {
             if on_the_way {
@@ -341,11 +350,7 @@ fn close_hash<S: Scalar>(
     let (mut pairs, mut count, mut figures) = (Fnv::default(), 0, Fnv::default());
     let everything = Selection::Everything;
     for (step, shapes) in steps.iter().enumerate() {
-        for (&body, positions) in bodies.iter().zip(shapes) {
-            world
-                .set_positions(body, &widened(positions, widen))
-                .unwrap();
-        }
+        set_all(&mut world, &bodies, shapes, widen);
         if step == 1 {
             let end = toward(shapes, &steps[0], PART);
             world
@@ -440,11 +445,7 @@ fn points_hash<S: Scalar>(
     let (mut fnv, mut count) = (Fnv::default(), 0);
     let far = 16.0 * DISTANCE;
     for (step, shapes) in steps.iter().enumerate() {
-        for (&body, positions) in bodies.iter().zip(shapes) {
-            world
-                .set_positions(body, &widened(positions, widen))
-                .unwrap();
-        }
+        set_all(&mut world, &bodies, shapes, widen);
         let end = toward(shapes, &steps[(step + 1) % steps.len()], LONGER_PART);
         let points = widened(&end[0], widen);
         let mut found = world.closest_points(&points, None, far).unwrap();
@@ -491,11 +492,7 @@ fn hash<S: Scalar>(
     let (mut world, bodies) = world_of(case, scene, &steps[0], widen);
     let (mut fnv, mut count) = (Fnv::default(), 0);
     for (step, shapes) in steps.iter().enumerate() {
-        for (&body, positions) in bodies.iter().zip(shapes) {
-            world
-                .set_positions(body, &widened(positions, widen))
-                .unwrap();
-        }
+        set_all(&mut world, &bodies, shapes, widen);
         fnv.add(&[step as u32]);
         match scene.asks() {
             Asks::BetweenBodies => {

@@ -6,7 +6,7 @@
 pub(crate) mod files;
 mod list;
 mod out;
-#[cfg(feature = "parquet")]
+#[cfg_attr(not(feature = "parquet"), path = "without_parquet.rs")]
 mod parquet;
 mod row;
 mod worker;

@@ -81,11 +81,7 @@ impl Out {
     ) -> anyhow::Result<(Self, Done)> {
         let is_there = may_be_written(path, list)?;
         if is_there && !resume && !arguments.pictures.over.force {
-            bail!(
-                "{}: a file is there; go on with it by `--resume`, choose another name, or use \
-                 `--force` to write over it",
-                cannot_write(path)
-            );
+            return Err(in_the_way(path));
         }
         let mut done = Done {
             path: path.to_owned(),
@@ -228,7 +224,16 @@ impl Iterator for Rows {
     }
 }
 
-fn cannot_write(path: &Path) -> String {
+/// Error of an output that is there already.
+pub(super) fn in_the_way(path: &Path) -> anyhow::Error {
+    anyhow!(
+        "{}: a file is there; go on with it by `--resume`, choose another name, or use `--force` \
+         to write over it",
+        cannot_write(path)
+    )
+}
+
+pub(super) fn cannot_write(path: &Path) -> String {
     format!("cannot write {}", shown(path))
 }
 

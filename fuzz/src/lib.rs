@@ -6,7 +6,7 @@ use std::cell::OnceCell;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use pliant_io::{Body, Error, OpenOptions, Positions};
+use pliant_io::{Body, Error, Files, OpenOptions, Positions};
 use tempfile::TempDir;
 
 thread_local! {
@@ -40,23 +40,32 @@ const MESH: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n";
 /// Reads `contents` as a file with this `ending`, and checks what the reader returns.
 ///
 /// A file of positions alone stands beside a mesh. The result is frames whose parts agree, or an
-/// error of one line that names the file. Frames are equal, welded or not.
+/// error of one line that names the file. Frames are equal, welded or not. All is the same from
+/// memory.
 pub fn read_as(ending: &str, contents: &[u8]) {
     let path = path(ending);
     fs::write(&path, contents).expect("a file can be written");
     let mut argument = path.to_str().expect("the name is plain").to_owned();
+    let mut memory = vec![(path.clone(), contents.to_vec())];
     if ["pc2", "mdd"].contains(&ending) {
         let mesh = path.with_extension("obj");
         fs::write(&mesh, MESH).expect("a file can be written");
         argument = format!("{}+{argument}", mesh.display());
+        memory.push((mesh, MESH.into()));
     }
+    let memory = Files::in_memory(memory);
     let [welded, apart] = [true, false].map(|weld| {
-        let options = OpenOptions {
-            weld,
-            max_memory: 16 << 20,
-            ..OpenOptions::default()
-        };
-        read(&argument, &options)
+        let [on_disk, in_memory] = [Files::default(), memory.clone()].map(|files| {
+            let options = OpenOptions {
+                weld,
+                max_memory: 16 << 20,
+                files,
+                ..OpenOptions::default()
+            };
+            read(&argument, &options)
+        });
+        assert_eq!(on_disk, in_memory, "from memory all is the same");
+        on_disk
     });
     match (welded, apart) {
         (Ok(welded), Ok(apart)) => assert_eq!(welded, apart, "welding moves no vertex"),

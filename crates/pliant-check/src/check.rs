@@ -195,7 +195,7 @@ impl Check {
         settings: &Settings,
         open: impl FnMut(&String) -> Result<Vec<Source>, pliant_io::Error>,
     ) -> Result<Self, Error> {
-        let opened = Opened::of(arguments, open)?;
+        let opened = Opened::of(arguments, &reading.files, open)?;
         let mut sources = opened.sources.iter();
         if reading.clip.is_some() && sources.all(|source| source.clip().is_none()) {
             return Err(Error::NoClip);

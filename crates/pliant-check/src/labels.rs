@@ -40,7 +40,7 @@ pub(crate) fn read(
             return Err(bad(format!("{body} has labels already")));
         }
         let source = &sources[number];
-        let labels = pliant_io::integers(file, most)?;
+        let labels = pliant_io::integers(file, source.among(), most)?;
         let (triangles, polygons) = (source.triangles().len(), source.faces());
         let of_polygons = polygons.map_or(0, |of| of.iter().max().map_or(0, |last| last + 1));
         let label = |place: usize| match u32::try_from(labels[place]) {

@@ -6,7 +6,7 @@
 //! such argument, and its spelling of the file's name.
 
 use crate::error::Error;
-use pliant_io::{Body as Source, group_argument};
+use pliant_io::{Body as Source, Files, group_argument};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::path::{Path, PathBuf};
@@ -28,16 +28,17 @@ impl Opened {
         }
     }
 
-    /// Opens the files that `arguments` name.
+    /// Opens the files that `arguments` name among `among`.
     pub(crate) fn of(
         arguments: &[String],
+        among: &Files,
         mut open: impl FnMut(&String) -> Result<Vec<Source>, pliant_io::Error>,
     ) -> Result<Self, Error> {
         let mut opened = Self::whole(Vec::new());
         // Sources of the files whose groups are named.
         let mut files: BTreeMap<PathBuf, usize> = BTreeMap::new();
         for argument in arguments {
-            let Some((file, name)) = group_argument(argument) else {
+            let Some((file, name)) = group_argument(argument, among) else {
                 opened.sources.extend(open(argument)?);
                 continue;
             };

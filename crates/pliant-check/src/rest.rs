@@ -43,6 +43,7 @@ impl RestShape {
             .ok_or_else(|| bad("the name is not UTF-8".to_owned()))?;
         let options = OpenOptions {
             max_memory: most,
+            files: source.among().clone(),
             ..OpenOptions::default()
         };
         let rest = pliant_io::open(name, &options)?;

@@ -16,6 +16,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Reason};
 use crate::file::Found;
+use crate::files::{Files, Kind};
 use crate::format::Format;
 use crate::groups::holds_one_body;
 use crate::natural;
@@ -34,36 +35,36 @@ pub(crate) enum Named {
     Cache { mesh: Found, positions: Found },
 }
 
-/// Parses `argument` and finds its files.
-pub(crate) fn named(argument: &str) -> Result<Named, Error> {
+/// Parses `argument` and finds its files among `files`.
+pub(crate) fn named(argument: &str, files: &Files) -> Result<Named, Error> {
     let named = |name: &str| name.to_owned();
-    match read(argument) {
-        Meant::Files => frames(argument).map(Named::Files),
+    match read(argument, files) {
+        Meant::Files => frames(argument, files).map(Named::Files),
         Meant::Cache { mesh, positions } => Ok(Named::Cache {
-            mesh: file(mesh)?,
-            positions: file(positions)?,
+            mesh: file(mesh, files)?,
+            positions: file(positions, files)?,
         }),
         Meant::Part { path, name, format } if format.holds_bodies() => Ok(Named::Body {
-            file: file(path)?,
+            file: file(path, files)?,
             name: named(name),
         }),
         Meant::Part { path, name, format } if format.holds_groups() => Ok(Named::Group {
-            files: frames(path)?,
+            files: frames(path, files)?,
             name: named(name),
         }),
         Meant::Part { path, name, .. } => Err(Error::new(path, holds_one_body(name))),
     }
 }
 
-/// Finds the files that an argument names, in the order in which they are read.
+/// Finds the files that an argument names among `files`, in the order in which they are read.
 ///
 /// Of a mesh and its positions both; files that a glTF file keeps data in are not among them.
 ///
 /// # Errors
 ///
 /// As [`open_all`](crate::open_all), of files that are not there. No file is opened.
-pub fn files(argument: &str) -> Result<Vec<PathBuf>, Error> {
-    let found = match named(argument)? {
+pub fn files(argument: &str, files: &Files) -> Result<Vec<PathBuf>, Error> {
+    let found = match named(argument, files)? {
         Named::Files(files) | Named::Group { files, .. } => files,
         Named::Body { file, .. } => vec![file],
         Named::Cache { mesh, positions } => vec![mesh, positions],
@@ -78,11 +79,13 @@ pub fn files(argument: &str) -> Result<Vec<PathBuf>, Error> {
 /// are best opened as one body, the file: triangles that share a vertex are then known to.
 ///
 /// ```
-/// assert_eq!(pliant_io::group_argument("walk_*.obj#arm"), Some(("walk_*.obj", "arm")));
-/// assert_eq!(pliant_io::group_argument("scene.glb#arm"), None);
+/// use pliant_io::{Files, group_argument};
+/// let files = Files::default();
+/// assert_eq!(group_argument("walk_*.obj#arm", &files), Some(("walk_*.obj", "arm")));
+/// assert_eq!(group_argument("scene.glb#arm", &files), None);
 /// ```
-pub fn group_argument(argument: &str) -> Option<(&str, &str)> {
-    match read(argument) {
+pub fn group_argument<'a>(argument: &'a str, files: &Files) -> Option<(&'a str, &'a str)> {
+    match read(argument, files) {
         Meant::Part { path, name, format } if format.holds_groups() => Some((path, name)),
         _ => None,
     }
@@ -103,14 +106,14 @@ enum Meant<'a> {
 }
 
 /// Parses an argument; looks at which files exist where the syntax is ambiguous.
-fn read(argument: &str) -> Meant<'_> {
-    if Path::new(argument).exists() {
+fn read<'a>(argument: &'a str, files: &Files) -> Meant<'a> {
+    if files.exists(argument.as_ref()) {
         return Meant::Files;
     }
-    let part = file_and_name(argument);
-    let holds_it = part.is_some_and(|(path, ..)| is_file(path));
-    if let Some((mesh, positions)) = cache(argument)
-        && (is_file(positions) || !holds_it)
+    let part = file_and_name(argument, files);
+    let holds_it = part.is_some_and(|(path, ..)| files.is_file(path.as_ref()));
+    if let Some((mesh, positions)) = cache(argument, files)
+        && (files.is_file(positions.as_ref()) || !holds_it)
     {
         return Meant::Cache { mesh, positions };
     }
@@ -118,7 +121,7 @@ fn read(argument: &str) -> Meant<'_> {
         // For a missing file, its own message says most. A pattern may contain a `#`.
         Some((path, name, format))
             if format.holds_bodies()
-                || Path::new(path).exists()
+                || files.exists(path.as_ref())
                 || format.holds_groups() && is_pattern(path) =>
         {
             Meant::Part { path, name, format }
@@ -131,31 +134,27 @@ fn read(argument: &str) -> Meant<'_> {
 ///
 /// Folders and bodies may have a `#` in their names. Of the places to split, the first where there
 /// is a file wins.
-fn file_and_name(argument: &str) -> Option<(&str, &str, Format)> {
+fn file_and_name<'a>(argument: &'a str, files: &Files) -> Option<(&'a str, &'a str, Format)> {
     let cut = |(at, _)| {
         let (path, name): (&str, &str) = (&argument[..at], &argument[at + 1..]);
         Some((path, name, Format::of(Path::new(path)).ok()?))
     };
     let cuts = || argument.match_indices('#').filter_map(cut);
     cuts()
-        .find(|(path, ..)| is_file(path))
+        .find(|(path, ..)| files.is_file(path.as_ref()))
         .or_else(|| cuts().next())
 }
 
 /// Splits `shirt.obj+walk.pc2` into mesh and positions.
 ///
 /// Folders may have a `+` in their names: a split into two existing files is preferred.
-fn cache(argument: &str) -> Option<(&str, &str)> {
+fn cache<'a>(argument: &'a str, files: &Files) -> Option<(&'a str, &'a str)> {
     let cut = |(at, _): (usize, &str)| as_cache(&argument[..at], &argument[at + 1..]);
+    let is_file = |path: &str| files.is_file(path.as_ref());
     let are_files = |(mesh, positions): &(&str, &str)| is_file(mesh) && is_file(positions);
     let mut cuts = argument.match_indices('+').filter_map(cut);
     cuts.find(are_files)
         .or_else(|| mesh_and_positions(argument))
-}
-
-/// Whether there is a file of this name, and no folder.
-fn is_file(path: &str) -> bool {
-    Path::new(path).is_file()
 }
 
 /// Splits `shirt.obj+walk.pc2` at its last `+` into mesh and positions.
@@ -171,9 +170,9 @@ fn as_cache<'a>(mesh: &'a str, positions: &'a str) -> Option<(&'a str, &'a str)>
 }
 
 /// Finds one file of exactly this name.
-fn file(name: &str) -> Result<Found, Error> {
+fn file(name: &str, files: &Files) -> Result<Found, Error> {
     let error = |reason: Reason| Error::new(name, reason);
-    Found::find(name.into()).map_err(|reason| match reason {
+    files.find(name.into()).map_err(|reason| match reason {
         Reason::NotFound if is_pattern(name) => error(Reason::Unsupported(
             "no such file, and a pattern cannot stand here; name one file".into(),
         )),
@@ -182,24 +181,25 @@ fn file(name: &str) -> Result<Found, Error> {
 }
 
 /// Finds the files that `argument` names, in natural order; at least one.
-fn frames(argument: &str) -> Result<Vec<Found>, Error> {
-    let error = |reason: Reason| Error::new(argument, reason);
-    if Path::new(argument).metadata().is_ok() || !is_pattern(argument) {
-        return Ok(vec![file(argument)?]);
+fn frames(argument: &str, files: &Files) -> Result<Vec<Found>, Error> {
+    if files.exists(argument.as_ref()) || !is_pattern(argument) {
+        return Ok(vec![file(argument, files)?]);
     }
-    let mut files = Vec::new();
-    for path in matching(argument)? {
-        match path.metadata() {
+    let mut found = Vec::new();
+    for path in matching(argument, files)? {
+        match files.kind(&path) {
             // A pattern for files may match folders beside them.
-            Ok(metadata) if metadata.is_dir() => {}
-            Ok(metadata) if metadata.is_file() => files.push(Found::new(path, &metadata)),
-            Ok(_) => return Err(Error::new(path, Reason::NotAFile)),
+            Ok(Kind::Folder) => {}
+            Ok(Kind::File | Kind::Other) => {
+                let file = files.find(path.clone());
+                found.push(file.map_err(|reason| Error::new(path, reason))?);
+            }
             Err(other) => return Err(Error::new(path, Reason::Io(other))),
         }
     }
-    if files.is_empty() {
-        return Err(error(Reason::NoMatch));
+    if found.is_empty() {
+        return Err(Error::new(argument, Reason::NoMatch));
     }
-    files.sort_by(|a, b| natural::compare(a.path(), b.path()));
-    Ok(files)
+    found.sort_by(|a, b| natural::compare(a.path(), b.path()));
+    Ok(found)
 }

@@ -16,6 +16,7 @@ use std::sync::Arc;
 use crate::arguments::{self, Named};
 use crate::error::{Error, Fault, Place, Reason};
 use crate::file::Found;
+use crate::files::Files;
 use crate::format::Format;
 use crate::frame::{Complete, Frame};
 use crate::groups::{Groups, Naming};
@@ -224,7 +225,7 @@ pub fn open_all(argument: &str, options: &OpenOptions) -> Result<Vec<Body>, Erro
         argument: argument.into(),
         options: Arc::new(options.clone()),
     };
-    match arguments::named(argument)? {
+    match arguments::named(argument, &options.files)? {
         Named::Files(mut files) if files.len() == 1 => {
             let found = files.swap_remove(0);
             match format_of(&found)? {
@@ -388,6 +389,11 @@ impl Body {
     /// Name of the body: the argument, and `#` and its own name where the argument names several.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// The files among which the argument names some.
+    pub fn among(&self) -> &Files {
+        &self.options.files
     }
 
     /// Lets later files of the body have other meshes: other triangles, more or fewer vertices.

@@ -7,7 +7,6 @@ use std::sync::Arc;
 
 use crate::body::Body;
 use crate::error::{Error, Fault, Place, Reason};
-use crate::file::Found;
 use crate::frame::{Announced, Complete, Frame};
 use crate::options::OpenOptions;
 use crate::positions::Precision;
@@ -43,7 +42,8 @@ pub fn evaluated(
     frames: Box<dyn Evaluated>,
     options: &OpenOptions,
 ) -> Result<Body, Error> {
-    let found = Found::find(file.to_owned()).map_err(|reason| Error::new(file, reason))?;
+    let found = options.files.find(file.to_owned());
+    let found = found.map_err(|reason| Error::new(file, reason))?;
     let count = frames.frame_count();
     if count == 0 {
         return Err(Error::new(file, Reason::NoFrames));

@@ -182,7 +182,7 @@ mod tests {
                 (text.to_owned(), false),
             ] {
                 std::fs::write(&path, text).unwrap();
-                let found = Found::new(path.clone(), &path.metadata().unwrap());
+                let found = Found::on_disk(path.clone()).unwrap();
                 let mut source = Format::of(&path)
                     .unwrap()
                     .open(&found, &OpenOptions::default())

@@ -1,26 +1,27 @@
 //! Numbers for the triangles of a body, from an NPY file.
 
 use crate::error::Error;
-use crate::file::Found;
+use crate::files::Files;
 use crate::npz;
 use std::path::Path;
 
 /// Reads a NumPy file (`.npy`) of integers, shape (n,): one for each triangle, for example.
 ///
 /// Integers of 1 to 8 bytes are read, in either byte order; above [`i64::MAX`] they become that.
-/// `max_memory` is the limit of what they take, in bytes.
+/// `path` is one of `files`; `max_memory` is the limit of what they take, in bytes.
 ///
 /// # Errors
 ///
 /// The file cannot be read, is another array, or takes more memory.
-pub fn integers(path: &Path, max_memory: u64) -> Result<Vec<i64>, Error> {
-    let found = Found::find(path.to_owned()).map_err(|reason| Error::new(path, reason))?;
+pub fn integers(path: &Path, files: &Files, max_memory: u64) -> Result<Vec<i64>, Error> {
+    let found = files.find(path.to_owned());
+    let found = found.map_err(|reason| Error::new(path, reason))?;
     npz::integers(&found, max_memory).map_err(|fault| Error::new(path, fault))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::integers;
+    use super::{Files, integers};
     use crate::error::Reason;
     use std::path::PathBuf;
 
@@ -40,7 +41,7 @@ mod tests {
     fn integers_of_every_size_are_read_and_others_refused() {
         let read = |name: &str, dtype: &str, shape: &str, data: &[u8], most| {
             let path = written(name, dtype, shape, data);
-            let read = integers(&path, most);
+            let read = integers(&path, &Files::default(), most);
             std::fs::remove_file(&path).unwrap();
             read
         };
@@ -68,6 +69,6 @@ mod tests {
             assert!(!is_too_large && message.lines().count() == 1, "{message}");
         }
         assert!(refused("much", "<i4", "(2,)", &eight, 20).1);
-        assert!(integers("/nowhere.npy".as_ref(), 20).is_err());
+        assert!(integers("/nowhere.npy".as_ref(), &Files::default(), 20).is_err());
     }
 }

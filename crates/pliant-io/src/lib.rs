@@ -12,6 +12,7 @@
 //!   groups.
 //! - A cache of positions is named beside its mesh: `shirt.obj+walk.pc2`.
 //! - [`evaluated()`] opens a body whose frames the calling program evaluates.
+//! - [`Files`] in memory are read like files on disk.
 //! - [`Writer`] writes.
 //!
 //! ```
@@ -115,6 +116,7 @@
 //! | `arguments.rs`, `pattern.rs`, `natural.rs` | the files that an argument names, in order |
 //! | `series.rs` | a pattern that the shell expanded |
 //! | `options.rs`, `body.rs` | how bodies are read: the streaming loop over the files of a body |
+//! | `files.rs` | names of files on disk or in memory |
 //! | `file.rs` | a file must stay as it was found |
 //! | `source.rs` | the trait of readers |
 //! | `format.rs` | file endings and their readers: the one place to add a format |
@@ -140,6 +142,7 @@ mod classes;
 mod error;
 mod evaluated;
 mod file;
+mod files;
 mod format;
 mod frame;
 mod gltf;
@@ -171,6 +174,7 @@ pub use arguments::{files, group_argument};
 pub use body::{Body, open, open_all};
 pub use error::{Error, Place, Reason};
 pub use evaluated::{Evaluated, evaluated};
+pub use files::Files;
 pub use groups::Groups;
 pub use integers::integers;
 pub use near::NearSeams;

@@ -1,6 +1,8 @@
 //! Options for reading a body.
 
-/// Options for reading a body: welding, memory, and animation.
+use crate::files::Files;
+
+/// Options for reading a body: welding, memory, animation, and where its files are.
 ///
 /// ```
 /// use pliant_io::OpenOptions;
@@ -48,6 +50,8 @@ pub struct OpenOptions {
     pub clip: Option<String>,
     /// Frames per second at which an animation is evaluated. Default: 30.
     pub fps: f64,
+    /// Files that arguments name. Default: those of the system.
+    pub files: Files,
 }
 
 impl Default for OpenOptions {
@@ -58,6 +62,7 @@ impl Default for OpenOptions {
             max_memory: 4 << 30,
             clip: None,
             fps: 30.0,
+            files: Files::default(),
         }
     }
 }

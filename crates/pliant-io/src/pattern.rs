@@ -4,14 +4,12 @@
 //! to folders are not followed, so it ends. File names are bytes on most systems and need not be
 //! text: `*` and `?` match invalid bytes like any character.
 
-use std::ffi::OsStr;
-use std::fs;
-use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use glob::{MatchOptions, Pattern};
 
 use crate::error::{Error, Reason};
+use crate::files::{Files, Kind};
 
 const AS_IN_SHELLS: MatchOptions = MatchOptions {
     case_sensitive: true,
@@ -32,10 +30,10 @@ pub(crate) fn is_pattern(text: &str) -> bool {
 }
 
 /// Files, folders and everything else that matches a pattern, in no order.
-pub(crate) fn matching(pattern: &str) -> Result<Vec<PathBuf>, Error> {
+pub(crate) fn matching(pattern: &str, files: &Files) -> Result<Vec<PathBuf>, Error> {
     let segments = segments(pattern)?;
     let mut found = Vec::new();
-    walk(PathBuf::new(), &segments, &mut found)?;
+    walk(files, PathBuf::new(), &segments, &mut found)?;
     Ok(found)
 }
 
@@ -57,7 +55,12 @@ fn segments(pattern: &str) -> Result<Vec<Segment>, Error> {
 }
 
 /// Appends to `found` everything below `folder` that matches the remaining segments.
-fn walk(folder: PathBuf, segments: &[Segment], found: &mut Vec<PathBuf>) -> Result<(), Error> {
+fn walk(
+    files: &Files,
+    folder: PathBuf,
+    segments: &[Segment],
+    found: &mut Vec<PathBuf>,
+) -> Result<(), Error> {
     let Some((segment, rest)) = segments.split_first() else {
         found.push(folder);
         return Ok(());
@@ -66,33 +69,33 @@ fn walk(folder: PathBuf, segments: &[Segment], found: &mut Vec<PathBuf>) -> Resu
         Segment::Literal(name) => {
             let path = folder.join(name);
             let is_there = if rest.is_empty() {
-                path.symlink_metadata().is_ok()
+                files.kind_of_itself(&path).is_ok()
             } else {
-                path.is_dir()
+                files.is_folder(&path)
             };
             if is_there {
-                walk(path, rest, found)?;
+                walk(files, path, rest, found)?;
             }
         }
         Segment::Names(pattern) => {
-            for name in names(&folder)? {
+            for name in names(files, &folder)? {
                 if pattern.matches_with(&name.to_string_lossy(), AS_IN_SHELLS) {
                     let path = folder.join(name);
-                    if rest.is_empty() || path.is_dir() {
-                        walk(path, rest, found)?;
+                    if rest.is_empty() || files.is_folder(&path) {
+                        walk(files, path, rest, found)?;
                     }
                 }
             }
         }
         Segment::Folders => {
             // Without this segment, and with one folder more before it.
-            walk(folder.clone(), rest, found)?;
-            for name in names(&folder)? {
+            walk(files, folder.clone(), rest, found)?;
+            for name in names(files, &folder)? {
                 let path = folder.join(&name);
                 let is_hidden = name.to_string_lossy().starts_with('.');
-                let is_folder = path.symlink_metadata().is_ok_and(|its| its.is_dir());
-                if is_folder && !is_hidden {
-                    walk(path, segments, found)?;
+                let kind = files.kind_of_itself(&path).ok();
+                if kind == Some(Kind::Folder) && !is_hidden {
+                    walk(files, path, segments, found)?;
                 }
             }
         }
@@ -101,26 +104,23 @@ fn walk(folder: PathBuf, segments: &[Segment], found: &mut Vec<PathBuf>) -> Resu
 }
 
 /// Names in a folder; the empty path is the current folder.
-fn names(folder: &Path) -> Result<Vec<std::ffi::OsString>, Error> {
-    let here = if folder.as_os_str() == OsStr::new("") {
+fn names(files: &Files, folder: &Path) -> Result<Vec<std::ffi::OsString>, Error> {
+    let names = files.names(folder);
+    let here = if folder.as_os_str().is_empty() {
         Path::new(".")
     } else {
         folder
     };
-    let list = || -> io::Result<Vec<_>> {
-        fs::read_dir(here)?
-            .map(|entry| Ok(entry?.file_name()))
-            .collect()
-    };
-    list().map_err(|error| Error::new(here, Reason::Io(error)))
+    names.map_err(|error| Error::new(here, Reason::Io(error)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     /// Creates these files in a new folder; returns the names that the pattern matches there,
-    /// sorted.
+    /// sorted. In memory it matches the same.
     fn found(files: &[&str], pattern: &str) -> Vec<String> {
         let folder = tempfile::tempdir().unwrap();
         for file in files {
@@ -129,10 +129,20 @@ mod tests {
             fs::write(path, "").unwrap();
         }
         let within = folder.path().to_str().unwrap();
-        let all = matching(&format!("{}/{pattern}", Pattern::escape(within))).unwrap();
+        let on_disk = format!("{}/{pattern}", Pattern::escape(within));
+        let all = matching(&on_disk, &Files::default()).unwrap();
         let name = |path: &PathBuf| path.strip_prefix(within).unwrap().to_str().unwrap().into();
         let mut names: Vec<String> = all.iter().map(name).collect();
         names.sort();
+        let memory = Files::in_memory(files.iter().map(|&file| (file, Vec::new())));
+        let mut in_memory = matching(pattern, &memory).unwrap();
+        in_memory.sort();
+        assert!(
+            in_memory
+                .iter()
+                .map(PathBuf::as_path)
+                .eq(names.iter().map(Path::new))
+        );
         names
     }
 
@@ -162,7 +172,9 @@ mod tests {
 
     #[test]
     fn a_pattern_that_is_none_is_refused() {
-        let error = matching("a[.obj").unwrap_err().to_string();
+        let error = matching("a[.obj", &Files::default())
+            .unwrap_err()
+            .to_string();
         assert!(error.contains("a[.obj"), "{error}");
     }
 
@@ -170,6 +182,7 @@ mod tests {
     #[cfg(target_os = "linux")]
     #[test]
     fn names_that_are_no_text_are_names() {
+        use std::ffi::OsStr;
         use std::os::unix::ffi::OsStrExt;
         let folder = tempfile::tempdir().unwrap();
         for name in [&b"a\xff.obj"[..], b"a1.obj", b".\xfe.obj", b"\xfd"] {
@@ -177,7 +190,7 @@ mod tests {
         }
         let count = |pattern: &str| {
             let pattern = format!("{}/{pattern}", folder.path().display());
-            matching(&pattern).unwrap().len()
+            matching(&pattern, &Files::default()).unwrap().len()
         };
         assert_eq!(count("a*.obj"), 2);
         assert_eq!(count("a?.obj"), 2);
@@ -193,6 +206,6 @@ mod tests {
         std::os::unix::fs::symlink(folder.path(), folder.path().join("again")).unwrap();
         fs::write(folder.path().join("a.obj"), "").unwrap();
         let pattern = format!("{}/**/*.obj", folder.path().display());
-        assert_eq!(matching(&pattern).unwrap().len(), 1);
+        assert_eq!(matching(&pattern, &Files::default()).unwrap().len(), 1);
     }
 }

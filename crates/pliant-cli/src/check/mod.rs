@@ -23,7 +23,7 @@ use hits::Hits;
 use output::Output;
 use pictures::Pictures;
 use pliant_check::{Baseline, Check, Error};
-use pliant_io::shown;
+use pliant_io::{Files, shown};
 use settings::settings;
 
 /// Checks all frames and prints what intersects.
@@ -201,7 +201,8 @@ fn advise_names(arguments: &Arguments, error: Error) -> anyhow::Error {
             )
         }
         Error::NoSuchName { name, .. }
-            if arguments.split.is_none() && pliant_io::group_argument(name).is_some() =>
+            if arguments.split.is_none()
+                && pliant_io::group_argument(name, &Files::default()).is_some() =>
         {
             anyhow!(
                 "{error}; choose one of these, \

@@ -14,6 +14,7 @@ pub(super) fn settings(arguments: &Arguments) -> (OpenOptions, Settings) {
         max_memory,
         clip: arguments.clip.clone(),
         fps: arguments.fps,
+        ..OpenOptions::default()
     };
     let mut options = Options::default();
     options.threads = arguments.threads;

@@ -95,6 +95,7 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
             max_memory: arguments.max_memory,
             clip: arguments.clip.clone(),
             fps: arguments.fps,
+            ..OpenOptions::default()
         },
     )?;
     if arguments.clip.is_some() && body.clip().is_none() {

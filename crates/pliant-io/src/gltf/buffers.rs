@@ -6,7 +6,7 @@
 //! which are equal.
 
 use std::collections::BTreeMap;
-use std::io::{self, Read, Seek, SeekFrom};
+use std::io::{Read, Seek, SeekFrom};
 use std::path::{Component, Path, PathBuf};
 
 use base64::Engine as _;
@@ -16,12 +16,14 @@ use super::document::{Compressed, Document, memory};
 use super::meshopt;
 use crate::error::{Fault, Place, Reason};
 use crate::file::{Found, Opened};
+use crate::files::Files;
 use crate::memory::{Account, bytes_of};
 use crate::text::quoted;
 
 /// An open file and its buffers.
 pub(super) struct Buffers {
     main: Opened,
+    files: Files,
     folder: PathBuf,
     /// Offset and length of the binary chunk behind the JSON.
     behind: Option<(u64, u64)>,
@@ -50,7 +52,11 @@ const CHUNK_HEADER: &str = "the header of a chunk";
 const AT_A_TIME: u64 = 1 << 16;
 
 /// Opens a file and parses its JSON, if the account allows both the text and the parsed document.
-pub(super) fn open(found: &Found, account: &mut Account) -> Result<(Document, Buffers), Fault> {
+pub(super) fn open(
+    found: &Found,
+    files: &Files,
+    account: &mut Account,
+) -> Result<(Document, Buffers), Fault> {
     let mut main = found.open()?;
     let length = main.length();
     let mut start = [0; 4];
@@ -73,6 +79,7 @@ pub(super) fn open(found: &Found, account: &mut Account) -> Result<(Document, Bu
     let opened = document.buffers.iter().map(|_| None).collect();
     let buffers = Buffers {
         main,
+        files: files.clone(),
         folder,
         behind,
         opened,
@@ -313,37 +320,10 @@ impl Buffers {
             .into());
         }
         let path = self.folder.join(path);
-        let opened = self
-            .without_leaving(&path)
-            .and_then(Found::find)
-            .and_then(|found| found.open());
+        let found = self.files.find_below(&self.folder, path.clone());
+        let opened = found.and_then(|found| found.open());
         let opened = opened.map_err(|reason| Fault::from(reason).or_in(&path))?;
         Ok(Bytes::Beside(path, opened))
-    }
-
-    /// Resolves the links in `path`; an error if it leaves the folder.
-    ///
-    /// A folder from strangers may hold links to files that are no part of any shape.
-    fn without_leaving(&self, path: &Path) -> Result<PathBuf, Reason> {
-        let folder = if self.folder.as_os_str().is_empty() {
-            Path::new(".")
-        } else {
-            &self.folder
-        };
-        let real = match path.canonicalize() {
-            Err(absent) if absent.kind() == io::ErrorKind::NotFound => {
-                return Err(Reason::NotFound);
-            }
-            real => real?,
-        };
-        if real.starts_with(folder.canonicalize()?) {
-            return Ok(real);
-        }
-        Err(Reason::Unsupported(
-            "a link leads out of the folder of the glTF file, and is not followed; \
-             copy the file there, or export all as .glb"
-                .into(),
-        ))
     }
 
     /// Total size in bytes of the files opened and the views decoded so far.

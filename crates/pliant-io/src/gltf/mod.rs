@@ -103,7 +103,7 @@ pub(crate) fn open(
         return Err(Reason::BadRate { fps }.into());
     }
     let mut account = Account::new(options.max_memory);
-    let (document, buffers) = buffers::open(found, &mut account)?;
+    let (document, buffers) = buffers::open(found, &options.files, &mut account)?;
     let parsed = account.held();
     let mut reader = Reader {
         document,

@@ -5,71 +5,80 @@
 use std::sync::LazyLock;
 
 use crate::common::{Folder, all_frames, bytes, npy, npz, tetrahedron};
-use pliant_io::OpenOptions;
+use pliant_io::{Body, Error, Files, OpenOptions};
 use proptest::prelude::*;
 use zip::CompressionMethod;
 
-/// Reads `contents` as a file with this `ending`. Every error is one line and names a file.
+/// Reads `contents` as a file with this `ending`. Every error is one line and names a file. From
+/// memory everything is the same.
 fn survives(ending: &str, contents: &[u8]) {
     static FOLDER: LazyLock<Folder> = LazyLock::new(|| {
         let folder = Folder::new();
-        folder.write("mesh.obj", tetrahedron(1.0)).write(
-            "morph data.bin",
-            include_bytes!("../fixtures/morph data.bin"),
-        );
+        for (name, contents) in BESIDE {
+            folder.write(name, contents);
+        }
         folder
     });
+    const BESIDE: [(&str, &[u8]); 2] = [
+        (
+            "mesh.obj",
+            b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n",
+        ),
+        (
+            "morph data.bin",
+            include_bytes!("../fixtures/morph data.bin"),
+        ),
+    ];
     let name = format!("{:?}{ending}", std::thread::current().id());
     FOLDER.write(&name, contents);
+    let in_folder = |(name, contents): (&str, &[u8])| (FOLDER.argument(name), contents.to_vec());
+    let files = BESIDE.into_iter().chain([(name.as_str(), contents)]);
+    let memory = Files::in_memory(files.map(in_folder));
+    let mut argument = FOLDER.argument(&name);
+    if [".pc2", ".mdd"].contains(&ending) {
+        argument = format!("{}+{argument}", FOLDER.argument("mesh.obj"));
+    }
     for weld in [true, false] {
-        let options = OpenOptions {
-            weld,
-            max_memory: 1 << 20,
-            ..OpenOptions::default()
-        };
-        let mut argument = FOLDER.argument(&name);
-        if [".pc2", ".mdd"].contains(&ending) {
-            argument = format!("{}+{argument}", FOLDER.argument("mesh.obj"));
-        }
-        let bodies = pliant_io::open_all(&argument, &options);
-        let result = bodies
-            .map(|bodies| bodies.into_iter().take(20))
-            .and_then(|mut bodies| {
-                bodies.try_for_each(|mut body| {
-                    let triangles = body.triangles().as_flattened();
-                    assert!(
-                        triangles
-                            .iter()
-                            .all(|&corner| (corner as usize) < body.vertex_count())
-                    );
-                    let groups = body.groups()?;
-                    let count = groups.names.len();
-                    let is_there = |&group: &u32| (group as usize) < count;
-                    assert!(groups.of_triangles.iter().all(is_there));
-                    let (frames, vertices) = (body.frame_count(), body.vertex_count());
-                    // A few bytes can hold a great many frames.
-                    if frames > 1000 {
-                        return Ok(());
-                    }
-                    let read = all_frames(&mut body)?;
-                    assert_eq!(read.len(), frames);
-                    assert!(read.iter().all(|frame| frame.len() == vertices));
-                    assert!(
-                        read.concat()
-                            .as_flattened()
-                            .iter()
-                            .all(|value| value.abs() <= f64::from(f32::MAX))
-                    );
-                    Ok(())
-                })
-            });
-        if let Err(error) = result {
+        let [on_disk, in_memory] = [Files::default(), memory.clone()].map(|files| {
+            let options = OpenOptions {
+                weld,
+                max_memory: 1 << 20,
+                files,
+                ..OpenOptions::default()
+            };
+            let bodies = pliant_io::open_all(&argument, &options)?;
+            bodies.into_iter().take(20).map(read).collect()
+        });
+        assert_eq!(format!("{on_disk:?}"), format!("{in_memory:?}"));
+        let on_disk: Result<Vec<_>, Error> = on_disk;
+        if let Err(error) = on_disk {
             assert_eq!(error.to_string().lines().count(), 1, "{error}");
             // The file itself, or one beside it that it says it needs.
             let folder = FOLDER.path().to_str().unwrap();
             assert!(error.to_string().contains(folder), "{error}");
         }
     }
+}
+
+/// All frames of a body, after a look at what it says of itself.
+fn read(mut body: Body) -> Result<Vec<Vec<[f64; 3]>>, Error> {
+    let (frames, vertices) = (body.frame_count(), body.vertex_count());
+    let mut corners = body.triangles().as_flattened().iter();
+    assert!(corners.all(|&corner| (corner as usize) < vertices));
+    let groups = body.groups()?;
+    let count = groups.names.len();
+    let is_there = |&group: &u32| (group as usize) < count;
+    assert!(groups.of_triangles.iter().all(is_there));
+    // A few bytes can hold a great many frames.
+    if frames > 1000 {
+        return Ok(Vec::new());
+    }
+    let read = all_frames(&mut body)?;
+    assert_eq!(read.len(), frames);
+    assert!(read.iter().all(|frame| frame.len() == vertices));
+    let mut values = read.iter().flatten().flatten();
+    assert!(values.all(|value| value.abs() <= f64::from(f32::MAX)));
+    Ok(read)
 }
 
 /// A change to a valid file.

@@ -5,7 +5,7 @@ use crate::check::arguments::Arguments;
 use crate::check::settings::settings;
 use anyhow::anyhow;
 use pliant_check::{Check, Found};
-use pliant_io::shown;
+use pliant_io::{Files, shown};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fs::File;
@@ -160,7 +160,7 @@ impl Counts {
 fn hashed(bodies: &[String]) -> anyhow::Result<(u64, String)> {
     let (mut hash, mut bytes) = (Sha256::new(), 0);
     for body in bodies {
-        for path in pliant_io::files(body)? {
+        for path in pliant_io::files(body, &Files::default())? {
             let cannot = |error| anyhow!("{}: cannot be read: {error}", shown(&path));
             let file = File::open(&path).map_err(cannot)?;
             let mut file = BufReader::with_capacity(1 << 16, file);

@@ -4,7 +4,7 @@
 use std::io::{Cursor, Write};
 use std::path::Path;
 
-use pliant_io::{Body, Error, OpenOptions, Positions};
+use pliant_io::{Body, Error, Files, OpenOptions, Positions};
 use tempfile::TempDir;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
@@ -31,8 +31,52 @@ impl Folder {
         self.0.path().join(name).to_str().unwrap().to_owned()
     }
 
+    /// Opens a body from disk, after all of it was found to be the same from memory.
     pub(crate) fn open(&self, name: &str) -> Result<Body, Error> {
-        pliant_io::open(&self.argument(name), &OpenOptions::default())
+        let argument = self.argument(name);
+        if let Some(files) = self.in_memory() {
+            let options = OpenOptions {
+                files,
+                ..OpenOptions::default()
+            };
+            let [memory, disk] = [options, OpenOptions::default()].map(|options| {
+                let mut body = pliant_io::open(&argument, &options)?;
+                let first = format!("{:?} {:?}", body.triangles(), body.notes());
+                Ok((first, all_frames(&mut body)?))
+            });
+            assert_eq!(
+                format!("{memory:?}"),
+                format!("{:?}", disk as Result<_, Error>)
+            );
+        }
+        pliant_io::open(&argument, &OpenOptions::default())
+    }
+
+    /// The files of the folder under their full names.
+    ///
+    /// None if it has what memory does not: links, pipes, empty folders.
+    pub(crate) fn in_memory(&self) -> Option<Files> {
+        let mut files = Vec::new();
+        let mut folders = vec![self.0.path().to_owned()];
+        while let Some(folder) = folders.pop() {
+            let is_root = folder == self.0.path();
+            let mut entries = std::fs::read_dir(folder).unwrap().peekable();
+            if entries.peek().is_none() && !is_root {
+                return None;
+            }
+            for entry in entries {
+                let entry = entry.unwrap();
+                let kind = entry.file_type().unwrap();
+                match () {
+                    () if kind.is_dir() => folders.push(entry.path()),
+                    () if kind.is_file() => {
+                        files.push((entry.path(), std::fs::read(entry.path()).ok()?));
+                    }
+                    () => return None,
+                }
+            }
+        }
+        Some(Files::in_memory(files))
     }
 
     /// The error when a body is opened or read, without the folder's name.

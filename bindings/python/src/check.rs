@@ -10,12 +10,13 @@ use crate::signals::interruptible;
 use crate::usd::{self, Raised};
 use numpy::{IntoPyArray, PyArray1};
 use pliant_check::{
-    Baseline, BodyFacts, BodyThere, Check as Running, Error, FirstImpact, Found, Frames, Group,
-    Interval, Kinds, LabelFile, Life, Nested, Place, Rest, Settings, Split,
+    Baseline, BodyFacts, BodyThere, Check as Running, Counts, Error, FirstImpact, Found, Frames,
+    Group, Interval, Kinds, LabelFile, Life, Nested, Place, Rest, Settings, Split,
 };
-use pliant_io::{OpenOptions, shown};
+use pliant_io::{Files, OpenOptions, shown};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
+use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::{PyDict, PyRange, PyRangeMethods, PyTuple};
 use std::collections::BTreeMap;
 use std::ffi::CString;
@@ -47,6 +48,8 @@ pub(crate) struct Check {
     /// Warning for the end, if nothing is found until then.
     unlike_sizes: Option<String>,
     has_found: AtomicBool,
+    /// Whether a frame has the first pair alone.
+    first: bool,
 }
 
 /// Name of a body or group, or the number of a body.
@@ -180,6 +183,10 @@ impl Name {
 ///   format allows it
 /// - clip: name of the glTF animation; None is the first
 /// - fps: frames a second at which glTF animations are evaluated
+/// - files: bytes of files by name, {"scan.obj": bytes}; paths then name these and no others. USD
+///   is not read so
+/// - max_memory: limit of a frame that is read, and of a list of pairs, in bytes; None is 4 GiB for
+///   a frame, and no limit of lists
 /// - threads: how many share the work of a frame, at most, or "all" for one a core; no number
 ///   changes an answer
 ///
@@ -192,13 +199,13 @@ impl Name {
         ignore_adjacent=false, swept=false, first=false, weld=true, weld_tolerance=0.0,
         split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false,
         crossing_edges=false, places=false, solid=false, frames=None, clip=None, fps=30.0,
-        threads=Threads::Count(1)
+        files=None, max_memory=None, threads=Threads::Count(1)
     ),
     text_signature = "(*paths, itself=False, within=None, rest=None, labels=None, crossing=False, \
         ignore_adjacent=False, swept=False, first=False, weld=True, weld_tolerance=0.0, \
         split=None, groups=None, ignore=None, baseline=None, skip_degenerate=False, \
         crossing_edges=False, places=False, solid=False, frames=None, clip=None, fps=30.0, \
-        threads=1)"
+        files=None, max_memory=None, threads=1)"
 )]
 #[expect(
     clippy::too_many_arguments,
@@ -229,6 +236,8 @@ pub(crate) fn check(
     frames: Option<&Bound<'_, PyRange>>,
     clip: Option<String>,
     fps: f64,
+    files: Option<BTreeMap<PathBuf, PyBackedBytes>>,
+    max_memory: Option<u64>,
     threads: Threads,
 ) -> Result<Check> {
     let group = |(name, bodies): (String, Vec<Name>)| {
@@ -261,6 +270,7 @@ pub(crate) fn check(
         solid,
         frames: frames.map(range_of_frames).transpose()?,
         options: with_threads(threads)?,
+        max_list: max_memory.unwrap_or(u64::MAX),
         ..Settings::default()
     };
     let paths = paths.into_iter().map(|path| Name::Path(path).into_text());
@@ -277,16 +287,22 @@ pub(crate) fn check(
         return Err(refused!(BadOption:
             "weld_tolerance joins more than weld does, and weld is False; give one of them"));
     }
+    let default = OpenOptions::default();
+    let is_on_disk = files.is_none();
     let reading = OpenOptions {
         weld,
         weld_tolerance,
         clip,
         fps,
-        ..OpenOptions::default()
+        max_memory: max_memory.unwrap_or(default.max_memory),
+        files: files.map_or(default.files, |files| {
+            let file = |(name, bytes): (_, PyBackedBytes)| (name, bytes.to_vec());
+            Files::in_memory(files.into_iter().map(file))
+        }),
     };
     let raised = Raised::default();
     let open = |path: &String| {
-        if usd::is_usd(path) {
+        if is_on_disk && usd::is_usd(path) {
             usd::open(path, &reading, &raised)
         } else {
             pliant_io::open_all(path, &reading)
@@ -322,6 +338,7 @@ pub(crate) fn check(
         weld_tolerance,
         unlike_sizes,
         has_found: AtomicBool::new(false),
+        first,
     })
 }
 
@@ -398,6 +415,36 @@ impl Check {
             places = places.transpose()?,
             inside = PyTuple::new(py, inside)?, not_closed = PyTuple::new(py, not_closed)?,
             interval = interval.transpose()?)?))
+    }
+
+    /// Checks the frames that are left and counts what they have, in a Counts; lists no pairs.
+    ///
+    ///     pliant.check("cloth_*.obj", "body.npz").counts().pairs
+    ///
+    /// Edges are counted with crossing_edges=True. Intervals of swept are not counted. After an
+    /// exception, as after Ctrl-C, the frames counted before are lost. Raises as going on does.
+    fn counts<'py>(&self, py: Python<'py>) -> Result<Any<'py>> {
+        let count = |running: &mut Running| {
+            running.ask(self.first, false);
+            let mut counts = Counts::default();
+            if let Some((found, _)) = alone(&self.waiting)?.take() {
+                counts.add(&found);
+            }
+            while let Some(found) =
+                interruptible(|question| running.next_frame_unless(Some(question)))?
+            {
+                counts.add(&found);
+            }
+            Ok(counts)
+        };
+        let counts = alone_with(py, &self.running, count);
+        let counts = self.raised.rather(counts)?;
+        if counts.pairs > 0 || counts.adjacent > Some(0) {
+            self.has_found.store(true, Ordering::Relaxed);
+        }
+        self.warn_of_seams(py)?;
+        Ok(named!(py, "Counts" of counts:
+            frames, pairs, crossing_edges, adjacent, touching, degenerate, inside)?)
     }
 
     /// Places of the frames so far, at most 1000 Life, most pairs in a frame first.

@@ -541,6 +541,59 @@ def test_an_earlier_check_is_a_baseline(folder: Path) -> None:
         pliant.check(folder / "cloth.npz", baseline=folder / "still.obj")
 
 
+def test_files_in_memory_are_as_on_disk(folder: Path) -> None:
+    files = {file.name: file.read_bytes() for file in folder.iterdir()}
+    # The order of arguments, and names that are nowhere on disk.
+    asked: list[tuple[str, ...]] = [("cloth.npz", "still.obj"), ("cloth_*.obj", "still.obj"), ("still.obj",)]
+    for paths in asked:
+        on_disk = list(pliant.check(*(folder / path for path in paths), itself=True))
+        in_memory = list(pliant.check(*paths, files=files, itself=True))
+        assert [frame.pairs.tolist() for frame in in_memory] == [frame.pairs.tolist() for frame in on_disk]
+    assert [body.name for body in pliant.check("cloth.npz", files=files).bodies] == ["cloth.npz"]
+    for path in ("nowhere.obj", str(folder / "still.obj"), "cloth.usda"):
+        with pytest.raises(pliant.Error) as error:
+            pliant.check(path, files=files)
+        assert error.value.kind == "CannotRead"
+
+
+def test_counts_are_the_sums_of_frames(folder: Path) -> None:
+    paths = folder / "cloth.npz", folder / "still.obj"
+    frames = list(pliant.check(*paths, itself=True, crossing_edges=True))
+    counts = pliant.check(*paths, itself=True, crossing_edges=True).counts()
+    assert counts.frames == len(frames) == 6
+    assert counts.pairs == sum(frame.count for frame in frames) > 0
+    assert counts.adjacent == sum(frame.adjacent.count for frame in frames if frame.adjacent)
+    assert counts.touching == sum(frame.kinds.touching for frame in frames if frame.kinds)
+    edges = [edges.edges for frame in frames for edges in frame.crossing_edges or ()]
+    assert counts.crossing_edges == sum(edges) > 0
+    assert counts.degenerate == counts.inside == 0
+    # The frames that are left.
+    check = pliant.check(*paths, itself=True)
+    some = [next(check).count, next(check).count]
+    rest = check.counts()
+    assert (rest.frames, rest.crossing_edges) == (4, None) and sum(some) + rest.pairs == counts.pairs
+    assert check.counts().frames == 0
+    first = pliant.check(*paths, itself=True, first=True).counts()
+    assert first.pairs == sum(frame.count > 0 for frame in frames)
+
+
+def test_memory_has_a_limit(folder: Path) -> None:
+    with pytest.raises(pliant.Error, match="memory"):
+        pliant.check(folder / "still.obj", max_memory=1000)
+    # 200 upright triangles in one place, 200 flat ones through them all: a list of 640 kB.
+    height = np.linspace(0, 1, 200)
+    upright = np.stack([np.stack([x * np.ones(200), y + 1e-3 * height, z * np.ones(200)], 1) for x, y, z in [(0, 0, -1), (0, 0, 3), (9, 0, -1)]], 1)
+    flat = np.stack([np.stack([x * np.ones(200), y * np.ones(200), height], 1) for x, y in [(0.5, -5), (0.5, 5), (1, 5)]], 1)
+    for name, corners in [("upright.npz", upright), ("flat.npz", flat)]:
+        np.savez(folder / name, vertices=corners.reshape(-1, 3), faces=np.arange(600).reshape(200, 3))
+    paths = folder / "upright.npz", folder / "flat.npz"
+    assert pliant.check(*paths).counts().pairs == 40_000
+    assert pliant.check(*paths, max_memory=100_000).counts().pairs == 40_000
+    with pytest.raises(pliant.Error, match="40000|pairs") as error:
+        list(pliant.check(*paths, max_memory=100_000))
+    assert error.value.kind == "TooLarge"
+
+
 def test_arrays_have_names() -> None:
     world = pliant.World()
     assert world.add(faces=FACES, positions=FLAT) == 0

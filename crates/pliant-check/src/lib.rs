@@ -60,6 +60,7 @@
 //! | `solid.rs` | closed bodies as solids: what lies inside, how deep places are |
 //! | `touching.rs` | places where surfaces only touch |
 //! | `baseline.rs` | pairs of an earlier check, which are left out |
+//! | `counts.rs` | sums over frames |
 //! | `one_point.rs` | refusal of too many coincident point triangles |
 //! | `error.rs` | errors, each a message of one line |
 
@@ -67,6 +68,7 @@ mod any_world;
 mod baseline;
 mod bodies;
 mod check;
+mod counts;
 mod elements;
 mod error;
 mod filter;
@@ -91,6 +93,7 @@ mod union_find;
 pub use any_world::{AnyWorld, NotTaken, double, single};
 pub use bodies::BodyFacts;
 pub use check::Check;
+pub use counts::Counts;
 pub use error::Error;
 pub use found::{Adjacent, CrossingEdges, Found, Gap, Kinds};
 pub use interval::{FirstImpact, Impact, Interval};

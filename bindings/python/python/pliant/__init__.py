@@ -32,6 +32,9 @@ a body wholly inside another meets none of its triangles, and World.contained fi
 help(pliant.World) lists all questions, with shapes, dtypes, errors and cost.
 """
 
+from importlib import import_module
+from typing import TYPE_CHECKING
+
 from . import derivatives, reference
 from ._frames import intersections, self_intersections
 from ._pliant import (
@@ -69,6 +72,7 @@ from ._types import (
     ContactKind,
     Contacts,
     Containment,
+    Counts,
     CrossingEdge,
     CrossingEdges,
     CurveEnd,
@@ -177,3 +181,11 @@ __all__ = [
     "vertex_triangle_distances",
     "vertex_triangle_impacts",
 ]
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> object:
+        # It needs another package. Workers that unpickle a function ask for it so.
+        if name == "arrow":
+            return import_module("pliant.arrow")
+        raise AttributeError(f"module 'pliant' has no attribute {name!r}")

@@ -32,6 +32,7 @@ from ._types import (
     ContactKind,
     Contacts,
     Containment,
+    Counts,
     CrossingEdge,
     Curves,
     Depth,
@@ -504,6 +505,8 @@ class Check:
     @property
     def places(self) -> tuple[Life, ...]:
         """Places of the frames so far, at most 1000 Life, most pairs in a frame first."""
+    def counts(self) -> Counts:
+        """Checks the frames that are left and counts what they have, in a Counts; lists no pairs."""
     def __iter__(self) -> Check: ...
     def __next__(self) -> Frame: ...
 
@@ -530,6 +533,8 @@ def check(
     frames: range | None = None,
     clip: str | None = None,
     fps: float = 30.0,
+    files: Mapping[str | PathLike[str], bytes | bytearray] | None = None,
+    max_memory: int | None = None,
     threads: int | Literal["all"] = 1,
 ) -> Check:
     """Checks files frame by frame, as the program `pliant check` does: an iterator of Frame."""

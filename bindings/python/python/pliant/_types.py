@@ -793,6 +793,25 @@ class Adjacent:
     """Pairs with a triangle without area: found, or left out with skip_degenerate=True."""
 
 
+class Counts(NamedTuple):
+    """Numbers of several frames, added up: see Check.counts."""
+
+    frames: int
+    """Number of frames."""
+    pairs: int
+    """Intersecting pairs, or close ones with within=."""
+    crossing_edges: int | None
+    """Edges that cross triangles; None as Frame.crossing_edges."""
+    adjacent: int | None
+    """Pairs that share a vertex; None as Frame.adjacent."""
+    touching: int | None
+    """Pairs, among pairs, that only touch; None as Frame.kinds."""
+    degenerate: int
+    """Pairs with a triangle without area."""
+    inside: int
+    """Components inside bodies."""
+
+
 @dataclass(frozen=True, eq=False)
 class Frame:
     """A frame that pliant.check has checked."""

@@ -4,7 +4,7 @@ use super::list::Line;
 use crate::check::arguments::Arguments;
 use crate::check::settings::settings;
 use anyhow::anyhow;
-use pliant_check::{Check, Found};
+use pliant_check::{Check, Counts};
 use pliant_io::{Files, shown};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -90,23 +90,15 @@ impl Row {
         settings.crossing_edges = arguments.within.is_none();
         settings.inside = true;
         settings.places = arguments.crossing;
+        (settings.first, settings.listed) = (arguments.first, false);
         // The other cores have jobs of their own.
         settings.options.threads = NonZeroUsize::MIN;
         let mut check = Check::open(&self.bodies, &reading, &settings)?;
         check.begin()?;
         let triangles = check.sources().iter().map(|it| it.triangles().len() as u64);
-        let mut counts = Counts {
-            triangles: triangles.sum(),
-            ..Counts::default()
-        };
-        loop {
-            check.ask(arguments.first, false);
-            let Some(found) = check.next_frame()? else {
-                break;
-            };
-            counts.add(&found);
-        }
-        self.triangles = Some(counts.triangles);
+        let triangles = triangles.sum();
+        let counts = Counts::of(&mut check)?;
+        self.triangles = Some(triangles);
         self.pairs = Some(counts.pairs);
         self.crossing_edges = counts.crossing_edges;
         self.adjacent = counts.adjacent;
@@ -120,39 +112,6 @@ impl Row {
     pub(crate) fn meets(&self, solid: bool) -> bool {
         let some = |count: Option<u64>| count.is_some_and(|count| count > 0);
         some(self.pairs) || some(self.adjacent) || solid && some(self.inside)
-    }
-}
-
-/// Sums over frames. What a frame does not say is absent from the sum.
-#[derive(Default)]
-struct Counts {
-    triangles: u64,
-    pairs: u64,
-    crossing_edges: Option<u64>,
-    adjacent: Option<u64>,
-    touching: Option<u64>,
-    degenerate: u64,
-    inside: u64,
-}
-
-impl Counts {
-    fn add(&mut self, found: &Found) {
-        fn add(sum: &mut Option<u64>, count: Option<usize>) {
-            if let Some(count) = count {
-                *sum = Some(sum.unwrap_or(0) + count as u64);
-            }
-        }
-        self.pairs += found.count as u64;
-        self.degenerate += found.degenerate as u64;
-        let edges = found.crossing_edges.as_ref();
-        let edges = edges.map(|all| all.iter().map(|it| it.edges).sum());
-        add(&mut self.crossing_edges, edges);
-        add(
-            &mut self.adjacent,
-            found.adjacent.as_ref().map(|it| it.count),
-        );
-        add(&mut self.touching, found.kinds.map(|it| it.touching));
-        self.inside += found.inside.as_ref().map_or(0, |it| it.all.len() as u64);
     }
 }
 

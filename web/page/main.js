@@ -106,7 +106,9 @@ async function check() {
       mine.output.push(data.output);
       // A line ends with each frame; the first says which bodies there are.
       for (const byte of data.output) mine.frames += byte === 10;
-      progress.textContent = mine.frames > 0 ? `${counted(mine.frames, 'frame')} checked` : 'Checking';
+      // With ways, every other line is the way from the frame before.
+      const checked = form.elements.swept.checked ? Math.ceil(mine.frames / 2) : mine.frames;
+      progress.textContent = checked > 0 ? `${counted(checked, 'frame')} checked` : 'Checking';
     } else if (data.note !== undefined) {
       mine.notes.push(data.note);
     } else if (data.broken !== undefined) {

@@ -19,6 +19,7 @@ use std::time::Duration;
 /// Tells a process that it is a worker.
 const IS_WORKER: &str = "PLIANT_IS_WORKER";
 /// Bytes that a worker holds beside the data of a check: the library's, and its threads' stacks.
+#[cfg(unix)]
 const BESIDE: u64 = 64 << 20;
 /// How much of what a worker says on standard error is kept.
 const SAID: u64 = 2000;

@@ -1,0 +1,96 @@
+// The program for WASI, run by node, says what the program of this machine says: every pair, every figure, every error.
+//
+// $PLIANT_WASM is the program for WASI; without it nothing is tested, and it says so. $PLIANT is the other, target/release/pliant
+// if it is not set. Scenes are written by the example write_obj of pliant-scenes, $WRITE_OBJ or beside the program.
+
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { existsSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { after, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+
+const root = fileURLToPath(new URL('..', import.meta.url));
+const wasm = process.env.PLIANT_WASM;
+const program = process.env.PLIANT ?? join(root, 'target/release/pliant');
+const writer = process.env.WRITE_OBJ ?? join(dirname(program), 'examples/write_obj');
+const skip = !wasm ? 'PLIANT_WASM names no program for WASI' : !existsSync(program) ? `there is no ${program}` : false;
+const folder = mkdtempSync(join(tmpdir(), 'pliant-wasi-'));
+after(() => rmSync(folder, { recursive: true, force: true }));
+
+const RUNNER = `
+import { WASI } from 'node:wasi';
+import { readFileSync } from 'node:fs';
+const [file, folder, ...words] = process.argv.slice(2);
+const wasi = new WASI({ version: 'preview1', args: ['pliant', ...words], preopens: { '.': folder }, returnOnExit: true });
+const instance = new WebAssembly.Instance(new WebAssembly.Module(readFileSync(file)), wasi.getImportObject());
+process.exitCode = wasi.start(instance);
+`;
+writeFileSync(join(folder, 'runner.mjs'), RUNNER);
+
+/** What both programs answer: exit code, standard output and standard error. */
+function both(...words) {
+  const said = (command, before) => {
+    const { status, stdout, stderr } = spawnSync(command, [...before, ...words], { cwd: folder, encoding: 'utf8', maxBuffer: 1 << 29 });
+    return { status, stdout, stderr };
+  };
+  const here = said(program, []);
+  const there = said(process.execPath, ['--no-warnings', join(folder, 'runner.mjs'), wasm, folder]);
+  return { here, there };
+}
+
+function same(...words) {
+  const { here, there } = both(...words);
+  assert.deepEqual(there, here, words.join(' '));
+  return here;
+}
+
+/** Writes the bodies of a scene at a step; returns their names. */
+function scene(name, triangles, step) {
+  const { status, stderr } = spawnSync(writer, [name, triangles, step, folder].map(String), { encoding: 'utf8' });
+  assert.equal(status, 0, stderr);
+  return Array.from({ length: 27 }, (_, body) => `${name}-${body}.obj`).filter((file) => existsSync(join(folder, file)));
+}
+
+for (const [name, triangles, step] of [['spheres', 1280, 150], ['crowd', 320, 100], ['arms', 320, 150], ['gather', 80, 200], ['cloth', 3200, 45]]) {
+  test(`${name}: pairs, edges, inside, depths and closest points are the same`, { skip }, () => {
+    const files = scene(name, triangles, step);
+    const found = same('check', ...files, '--self', '--solid', '--format', 'json');
+    assert.equal(found.status, 1, 'there is something to find');
+    same('check', ...files, '--crossing', '--format', 'json');
+    if (files.length > 1) same('check', ...files, '--within', '0.05', '--format', 'json');
+    for (const file of files) rmSync(join(folder, file));
+  });
+}
+
+test('sequences: what meets on the way, and when, is the same', { skip }, () => {
+  const frame = (z) => `v 0 0 ${z}\nv 1 0 ${z + 0.1}\nv 0 1 ${z}\nf 1 2 3\n`;
+  for (const [number, z] of [1, 0.3, -0.6].entries()) writeFileSync(join(folder, `leaf_${number}.obj`), frame(z));
+  writeFileSync(join(folder, 'floor.obj'), 'v -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n');
+  const found = same('check', 'leaf_*.obj', 'floor.obj', '--swept', '--format', 'json');
+  assert.match(found.stdout, /"time"/);
+});
+
+test('errors are the same', { skip }, () => {
+  const files = {
+    'nan.obj': 'v 0 0 nan\nf 1 1 1\n',
+    'empty.ply': '',
+    'cut.ply': 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n',
+    'large.ply': 'ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1000000000\nproperty list uchar int vertex_indices\nend_header\n',
+    'not.glb': 'glTF\x02',
+    'what.fbx': 'Kaydara',
+  };
+  for (const [name, text] of Object.entries(files)) {
+    writeFileSync(join(folder, name), text);
+    assert.equal(same('check', name).status, 2, name);
+  }
+  assert.equal(same('check', 'nowhere.obj').status, 2);
+  assert.equal(same('check', 'nan.obj', '--within', '-1').status, 2);
+});
+
+test('the page of a check is the same', { skip }, () => {
+  const files = scene('spheres', 320, 150);
+  const { here, there } = both('check', ...files, '--quiet', '--report', 'report.html', '--force');
+  assert.deepEqual([here.status, there.status], [1, 1]);
+});

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import runpy
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -53,11 +54,24 @@ def test_examples_of_the_readme(
     assert len(blocks) == 8 and capsys.readouterr().out.startswith("0 0 (0, 4)\n1 ")
 
 
+def test_commands_of_the_readme(tmp_path: Path) -> None:
+    """Those that install nothing, beside a sheet that meets itself in one of two frames."""
+    faces, flat = grid(20)
+    np.savez(tmp_path / "cloth.npz", vertices=np.stack([flat, fold(flat, 1)]), faces=faces)
+    blocks = (HERE.parent / "README.md").read_text().split("```sh\n")[1:]
+    lines = [line for block in blocks for line in block.split("```")[0].splitlines()]
+    commands = [shlex.split(line, comments=True)[1:] for line in lines if line.startswith("python -")]
+    said = [subprocess.run([sys.executable, *words], cwd=tmp_path, check=True, capture_output=True, text=True).stdout for words in commands]
+    assert len(said) == 2 and "intersections(" in said[0]
+    assert [int(line.split()[1]) > 0 for line in said[1].splitlines()] == [False, True]
+
+
 def test_tearing_cloth_of_the_guide() -> None:
-    """Its last block of Python: along the middle a cloth of 128 triangles comes to have two edges that part."""
+    """Its block of Python: along the middle a cloth of 128 triangles comes to have two edges that part."""
     names: dict[str, Any] = {}
-    guide = (HERE.parents[2] / "crates/pliant/guide.md").read_text()
-    exec(guide.split("```python\n")[-1].split("```")[0], names)
+    guide = (HERE.parents[2] / "crates/pliant/guide/change.md").read_text()
+    (block,) = guide.split("```python\n")[1:]
+    exec(block.split("```")[0], names)
     world, cloth = names["world"], names["cloth"]
     assert world.bodies() == [cloth, cloth + 1]
     assert sum(int(world.live_triangles(body).sum()) for body in world.bodies()) == 128

@@ -197,7 +197,46 @@ pub mod exact {
     pub use pliant_exact::{is_degenerate, side_of_plane};
 }
 
-// A module of the documentation alone. Its code is compiled and run, as the README's is.
+// Modules of the documentation alone. Their code is compiled and run, as the README's is. The site
+// has the same text. Links to parts lead to files, unless they are given here before.
 #[cfg(any(doc, doctest))]
-#[doc = include_str!("../guide.md")]
-pub mod guide {}
+/// [Which question do I ask?]: crate::guide::which_question
+/// [First contact]: crate::guide::first_contact
+/// [A body with itself]: crate::guide::with_itself
+/// [Near]: crate::guide::near
+/// [When]: crate::guide::when
+/// [Change]: crate::guide::change
+/// [Where they meet]: crate::guide::where_they_meet
+/// [Inside]: crate::guide::inside
+/// [For solvers]: crate::guide::for_solvers
+/// [Many meshes]: crate::guide::many_meshes
+/// [C and C++]: crate::guide::cpp
+/// [In your program]: crate::guide::in_your_program
+///
+#[doc = include_str!("../guide/README.md")]
+pub mod guide {
+    #[doc = include_str!("../guide/which_question.md")]
+    pub mod which_question {}
+    #[doc = include_str!("../guide/first_contact.md")]
+    pub mod first_contact {}
+    #[doc = include_str!("../guide/with_itself.md")]
+    pub mod with_itself {}
+    #[doc = include_str!("../guide/near.md")]
+    pub mod near {}
+    #[doc = include_str!("../guide/when.md")]
+    pub mod when {}
+    #[doc = include_str!("../guide/change.md")]
+    pub mod change {}
+    #[doc = include_str!("../guide/where_they_meet.md")]
+    pub mod where_they_meet {}
+    #[doc = include_str!("../guide/inside.md")]
+    pub mod inside {}
+    #[doc = include_str!("../guide/for_solvers.md")]
+    pub mod for_solvers {}
+    #[doc = include_str!("../guide/many_meshes.md")]
+    pub mod many_meshes {}
+    #[doc = include_str!("../guide/cpp.md")]
+    pub mod cpp {}
+    #[doc = include_str!("../guide/in_your_program.md")]
+    pub mod in_your_program {}
+}

@@ -25,7 +25,7 @@ fn both_readmes_show_the_same_code() {
 fn whoever_begins_is_told_of_debug_builds() {
     let first_screens = [
         include_str!("../../README.md"),
-        include_str!("../../guide.md"),
+        include_str!("../../guide/first_contact.md"),
     ];
     for text in first_screens {
         let screen: Vec<&str> = text.lines().take(48).collect();

@@ -51,6 +51,35 @@ fn examples_fit_a_narrow_terminal() {
     }
 }
 
+/// Commands in the blocks of pages of the site and of READMEs, as the program is called.
+#[test]
+fn every_command_of_a_page_is_one_that_the_program_takes() {
+    let workspace = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut pages = vec![workspace.join("README.md")];
+    pages.push(workspace.join("crates/pliant-cli/README.md"));
+    for folder in ["crates/pliant/guide", "site/pages"] {
+        let entries = std::fs::read_dir(workspace.join(folder)).unwrap();
+        pages.extend(entries.map(|entry| entry.unwrap().path()));
+    }
+    let mut count = 0;
+    for page in pages {
+        let text = std::fs::read_to_string(&page).unwrap();
+        let blocks = text.split("\n```sh\n").skip(1);
+        let blocks = blocks.map(|rest| rest.split("\n```").next().unwrap());
+        for line in blocks.flat_map(str::lines) {
+            let line = line.replace("cargo run --release -- ", "pliant ");
+            if line.starts_with("pliant ") {
+                let end = line.find(" # ").unwrap_or(line.len());
+                let words = shlex::split(&line[..end]).expect("its quotes are closed");
+                let taken = crate::command().try_get_matches_from(&words);
+                taken.unwrap_or_else(|error| panic!("{}: {line}: {error}", page.display()));
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 40, "{count} commands");
+}
+
 #[test]
 fn every_example_in_the_help_is_a_command_that_the_program_takes() {
     let program = crate::command();

@@ -48,6 +48,7 @@ mod pieces;
 mod readme;
 mod refusals;
 mod second_kind;
+mod site;
 mod threads;
 mod words;
 mod work;

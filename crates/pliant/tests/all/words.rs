@@ -1,4 +1,4 @@
-//! Prose in the source of every crate: short lines, short sentences, first lines that stand alone.
+//! Prose in the source of every crate, and of the site: it is short, and stands alone.
 //!
 //! Holds what a program can hold of the rules in CONTRIBUTING. The rest is for readers.
 //! Comments are read by lines, not parsed; text in code blocks and headings is skipped.
@@ -192,6 +192,22 @@ fn faults(text: &str, is_root: bool) -> Vec<(usize, String)> {
     faults
 }
 
+/// Everything that the prose of a page does wrong; its tables, links and code may be wide.
+fn faults_of_page(text: &str) -> Vec<(usize, String)> {
+    let as_comment: String = text.lines().map(|line| format!("// {line}\n")).collect();
+    let mut faults = faults(&as_comment, true);
+    faults.retain(|(_, fault)| !fault.ends_with(" columns"));
+    let mut is_code = false;
+    for (number, line) in text.lines().enumerate() {
+        is_code ^= line.starts_with("```");
+        let is_wide = is_code || line.starts_with(['|', '[']);
+        if !is_wide && line.chars().count() > COLUMNS {
+            faults.push((number + 1, format!("{} columns", line.chars().count())));
+        }
+    }
+    faults
+}
+
 /// All files of a folder that hold code.
 fn files(folder: &Path, into: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
@@ -220,6 +236,16 @@ fn prose_keeps_its_rules() {
         let name = path.strip_prefix(&workspace).unwrap_or(&path).display();
         for (line, fault) in faults(&text, is_root) {
             writeln!(said, "{name}:{line}: {fault}").unwrap();
+        }
+    }
+    for folder in ["crates/pliant/guide", "site", "site/pages"] {
+        for entry in fs::read_dir(workspace.join(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|end| end == "md") {
+                for (line, fault) in faults_of_page(&fs::read_to_string(&path).unwrap()) {
+                    writeln!(said, "{}:{line}: {fault}", path.display()).unwrap();
+                }
+            }
         }
     }
     assert!(said.is_empty(), "{} faults\n{said}", said.lines().count());

@@ -52,7 +52,7 @@ fn main() -> anyhow::Result<()> {
         }
         let asked = match scene.asks() {
             Asks::BetweenBodies => Selection::World,
-            _ => Selection::Everything,
+            Asks::Itself => Selection::Everything,
         };
         let hits = world.intersections(asked).all()?.iter();
         let pairs: Vec<[u32; 4]> = hits.map(|&pair| pair.into()).collect();

@@ -4,6 +4,7 @@
 //! block comes from. `site/build` runs commands, and looks at links between finished pages.
 
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -131,7 +132,7 @@ fn every_block_of_code_is_compiled_or_run() {
         for (language, code) in blocks(&read(&page)) {
             count += 1;
             if let Some(fault) = fault(&page, &language, &code) {
-                said += &format!("{page}: {language}: {fault}\n{}\n", code.join("\n"));
+                writeln!(said, "{page}: {language}: {fault}\n{}", code.join("\n")).unwrap();
             }
         }
     }

@@ -194,7 +194,8 @@ fn faults(text: &str, is_root: bool) -> Vec<(usize, String)> {
 
 /// Everything that the prose of a page does wrong; its tables, links and code may be wide.
 fn faults_of_page(text: &str) -> Vec<(usize, String)> {
-    let as_comment: String = text.lines().map(|line| format!("// {line}\n")).collect();
+    let lines: Vec<&str> = text.lines().collect();
+    let as_comment = format!("// {}", lines.join("\n// "));
     let mut faults = faults(&as_comment, true);
     faults.retain(|(_, fault)| !fault.ends_with(" columns"));
     let mut is_code = false;

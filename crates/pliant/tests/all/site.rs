@@ -69,10 +69,11 @@ fn blocks(text: &str) -> Vec<(String, Vec<String>)> {
     blocks
 }
 
-/// Whether the lines follow each other in one of the texts.
+/// Whether the lines follow each other in one of the texts, indented as you like.
 fn is_part_of(code: &[String], texts: &[String]) -> bool {
     texts.iter().any(|text| {
-        let lines: Vec<&str> = text.lines().collect();
+        let lines: Vec<&str> = text.lines().map(str::trim_start).collect();
+        let code: Vec<&str> = code.iter().map(|line| line.trim_start()).collect();
         lines.windows(code.len()).any(|some| some == code)
     })
 }

@@ -131,6 +131,24 @@ impl Lists {
         self.edge_edge.extend(pairs.unwrap().into_iter().map(row));
     }
 
+    fn extend(&mut self, other: &Self) {
+        self.vertex_triangle.extend(&other.vertex_triangle);
+        self.edge_edge.extend(&other.edge_edge);
+    }
+
+    /// The same pairs, with the second body of pairs of edges first.
+    fn turned(mut self) -> Self {
+        for pair in &mut self.edge_edge {
+            *pair = EdgeEdge {
+                body_a: pair.body_b,
+                edge_a: pair.edge_b,
+                body_b: pair.body_a,
+                edge_b: pair.edge_a,
+            };
+        }
+        self
+    }
+
     fn sorted(mut self) -> Self {
         self.vertex_triangle.sort_unstable();
         self.edge_edge.sort_unstable();
@@ -322,25 +340,25 @@ fn check<S: Scalar>(
             "{when}, {options:?}"
         );
         if meet(a.id, a.id) {
-            all.one(a, asked);
+            all.extend(&own);
         }
         if let Close(distance) = asked {
             check_triangles(world, a, distance, when);
         }
         for b in &known[at + 1..] {
-            for [a, b] in [[a, b], [b, a]] {
-                let mut two = Lists::default();
-                two.two(a, b, asked);
-                let of = Selection::Between(a.id, b.id);
+            let mut two = Lists::default();
+            two.two(a, b, asked);
+            if meet(a.id, b.id) {
+                between.extend(&two);
+                all.extend(&two);
+            }
+            for (of, two) in [([a, b], two.clone()), ([b, a], two.turned())] {
+                let of = Selection::Between(of[0].id, of[1].id);
                 assert_eq!(
                     ask(world, known, of, asked),
                     two.sorted(),
                     "{when}, {of:?}, {options:?}"
                 );
-            }
-            if meet(a.id, b.id) {
-                between.two(a, b, asked);
-                all.two(a, b, asked);
             }
         }
     }
@@ -381,33 +399,43 @@ fn check_triangles<S: Scalar>(world: &mut World<S>, body: &Known<S>, distance: f
         };
         triangle.map(of).into_iter().fold(0.0, f64::max)
     };
-    // Pairs that are surely close, and pairs that possibly are.
-    let at = |positions: &[[S; 3]], which: usize| -> BTreeSet<[u32; 2]> {
-        let mut close = BTreeSet::new();
-        for (i, &a) in (0..).zip(&body.triangles) {
-            for (j, &b) in (0..).zip(&body.triangles).skip(i as usize + 1) {
-                let length = Length::sum([distance, thick(a), thick(b)]).bounds()[which];
-                let pair = [a, b];
-                let found = reference::self_close_triangle_pairs(&pair, positions, length);
-                close.extend(found.unwrap().iter().map(|_| [i, j]));
+    // Whether two triangles are surely close, and whether they possibly are.
+    let close = |positions: &[[S; 3]], pair: [[u32; 3]; 2]| -> [bool; 2] {
+        let [a, b] = pair.map(thick);
+        let [least, most] = Length::sum([distance, a, b]).bounds();
+        let are_within = |length: f64| {
+            let found = reference::self_close_triangle_pairs(&pair, positions, length);
+            !found.unwrap().is_empty()
+        };
+        let possibly = are_within(most);
+        [possibly && (least == most || are_within(least)), possibly]
+    };
+    let (mut sure, mut possible) = (BTreeSet::new(), BTreeSet::new());
+    for (i, &a) in (0..).zip(&body.triangles) {
+        for (j, &b) in (0..).zip(&body.triangles).skip(i as usize + 1) {
+            let [are_close, may_be_close] = close(&body.positions, [a, b]);
+            if !may_be_close {
+                continue;
+            }
+            let rest = body.rest.as_deref();
+            let at_rest = rest.map_or([false; 2], |rest| close(rest, [a, b]));
+            if are_close && !at_rest[1] {
+                sure.insert([i, j]);
+            }
+            if !at_rest[0] {
+                possible.insert([i, j]);
             }
         }
-        close
-    };
-    let of = Selection::Within(body.id);
-    let found = world.close_triangle_pairs(of, distance).all().unwrap();
-    let found: BTreeSet<_> = found.iter().map(|close| close.pair.triangles()).collect();
-    let rest = [0, 1].map(|which| {
-        let rest = body.rest.as_deref();
-        rest.map_or_else(BTreeSet::new, |rest| at(rest, which))
-    });
+    }
     let stay = |pairs: BTreeSet<[u32; 2]>| {
         let mut pairs = pairs.into_iter().collect();
         reference::leave_out(&body.moving(), &mut pairs);
         pairs.into_iter().collect::<BTreeSet<_>>()
     };
-    let close = |which: usize| &at(&body.positions, which) - &rest[1 - which];
-    let [sure, possible] = [0, 1].map(|which| stay(close(which)));
+    let [sure, possible] = [sure, possible].map(stay);
+    let of = Selection::Within(body.id);
+    let found = world.close_triangle_pairs(of, distance).all().unwrap();
+    let found: BTreeSet<_> = found.iter().map(|close| close.pair.triangles()).collect();
     assert!(
         sure.is_subset(&found) && found.is_subset(&possible),
         "{when}"

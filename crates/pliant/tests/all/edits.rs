@@ -148,14 +148,12 @@ impl Answers {
         macro_rules! compare {
             ($($list:ident),*) => {$(
                 let (found, expected) = (&self.$list, &all.$list);
-                let missing = expected.iter().filter(|it| !found.iter().any(|other| other == *it));
-                let more = found.iter().filter(|it| !expected.iter().any(|other| other == *it));
-                let differences = (missing.collect::<Vec<_>>(), more.collect::<Vec<_>>());
-                assert!(
-                    found == expected,
-                    "{}: missing, and too many: {differences:?}",
-                    stringify!($list)
-                );
+                if found != expected {
+                    let missing = expected.iter().filter(|it| !found.iter().any(|x| x == *it));
+                    let more = found.iter().filter(|it| !expected.iter().any(|x| x == *it));
+                    let differences = (missing.collect::<Vec<_>>(), more.collect::<Vec<_>>());
+                    panic!("{}: missing, and too many: {differences:?}", stringify!($list));
+                }
             )*};
         }
         compare!(

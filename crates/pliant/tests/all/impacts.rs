@@ -95,6 +95,24 @@ impl Lists {
         all
     }
 
+    fn extend(&mut self, other: &Self) {
+        self.vertex_triangle.extend(&other.vertex_triangle);
+        self.edge_edge.extend(&other.edge_edge);
+    }
+
+    /// The same impacts, with the second body of pairs of edges first.
+    fn turned(mut self) -> Self {
+        for EdgeEdgeImpact { pair, .. } in &mut self.edge_edge {
+            *pair = EdgeEdge {
+                body_a: pair.body_b,
+                edge_a: pair.edge_b,
+                body_b: pair.body_a,
+                edge_b: pair.edge_a,
+            };
+        }
+        self
+    }
+
     pub(crate) fn sorted(mut self) -> Self {
         self.vertex_triangle.sort_by_key(|impact| impact.pair);
         self.edge_edge.sort_by_key(|impact| impact.pair);
@@ -163,18 +181,19 @@ fn check<S: Scalar>(world: &mut World<S>, known: &[Known<S>], width: f64, when: 
     for (at, a) in known.iter().enumerate() {
         let mut own = Lists::default();
         own.one(a, width);
+        all.extend(&own);
         let found = ask(world, Selection::Within(a.id), width);
         assert_eq!(found, own.sorted(), "{when}, {options:?}");
-        all.one(a, width);
         for b in &known[at + 1..] {
-            for [a, b] in [[a, b], [b, a]] {
-                let mut two = Lists::default();
-                two.two(a, b, width);
-                let (of, two) = (Selection::Between(a.id, b.id), two.sorted());
-                assert_eq!(ask(world, of, width), two, "{when}, {of:?}, {options:?}");
+            let mut two = Lists::default();
+            two.two(a, b, width);
+            between.extend(&two);
+            all.extend(&two);
+            for (of, two) in [([a, b], two.clone()), ([b, a], two.turned())] {
+                let of = Selection::Between(of[0].id, of[1].id);
+                let (found, two) = (ask(world, of, width), two.sorted());
+                assert_eq!(found, two, "{when}, {of:?}, {options:?}");
             }
-            between.two(a, b, width);
-            all.two(a, b, width);
         }
     }
     let found = ask(world, Selection::World, width);

@@ -1,5 +1,8 @@
 //! A second kind of query in the middle of a step leaves the first kind's boxes valid.
+//!
+//! Every two values of two choices are tried together; if tests are thorough, all combinations.
 
+use crate::common::{combinations, covering, covers_every_pair, is_thorough};
 use pliant::{Degree, Options, Scalar, Selection, Update, World};
 use std::num::{NonZeroU32, NonZeroUsize};
 
@@ -60,23 +63,27 @@ fn check<S: Scalar>(options: Options, of: fn(f64) -> S) {
     }
 }
 
+/// How many values each choice has: update, leaf size, threads, degree with precision.
+const CHOICES: [usize; 4] = [3, 4, 2, 3];
+
 #[test]
 fn a_second_kind_has_boxes_of_its_own() {
-    for update in [Update::BottomUp, Update::TopDown, Update::HYBRID] {
-        for leaf_size in [1, 3, 8, 11] {
-            for threads in [1, 3] {
-                let options = |degree| {
-                    let mut options = Options::default();
-                    options.degree = degree;
-                    options.update = update;
-                    options.leaf_size = NonZeroU32::new(leaf_size).unwrap();
-                    options.threads = NonZeroUsize::new(threads).unwrap();
-                    options
-                };
-                check::<f32>(options(Degree::Two), |x| x as f32);
-                check::<f32>(options(Degree::Eight), |x| x as f32);
-                check::<f64>(options(Degree::Eight), |x| x);
-            }
+    let every_two = if is_thorough() {
+        combinations(&CHOICES)
+    } else {
+        covering(&CHOICES)
+    };
+    assert!(covers_every_pair(&CHOICES, &every_two));
+    for values in every_two {
+        let mut options = Options::default();
+        options.update = [Update::BottomUp, Update::TopDown, Update::HYBRID][values[0]];
+        options.leaf_size = NonZeroU32::new([1, 3, 8, 11][values[1]]).unwrap();
+        options.threads = NonZeroUsize::new([1, 3][values[2]]).unwrap();
+        options.degree = [Degree::Two, Degree::Eight, Degree::Eight][values[3]];
+        if values[3] < 2 {
+            check::<f32>(options, |x| x as f32);
+        } else {
+            check::<f64>(options, |x| x);
         }
     }
 }

@@ -15,6 +15,7 @@ use crate::ids::{CallerVertex, TreeVertex};
 use crate::kernels::{Coordinate, Instructions, check, copy_checked, gather};
 use crate::mesh::{Moved, Order};
 use crate::threads::{Executor, Grain};
+use pliant_exact::DEBUG;
 use std::borrow::Cow;
 
 /// A shape of at most this many vertices is copied while it is taken over, where there are several
@@ -294,7 +295,7 @@ impl<S: Coordinate> BodyShape<S> {
     /// Positions in tree order. The shape must be in it.
     #[inline]
     pub(crate) fn in_tree_order(&self) -> &Points<S> {
-        debug_assert_ne!(self.order, InOrder::Callers);
+        assert!(!DEBUG || self.order != InOrder::Callers);
         &self.trees
     }
 

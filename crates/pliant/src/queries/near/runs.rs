@@ -13,6 +13,7 @@ use crate::kernels::ring::{MOST_OF_RUN, Ring};
 use crate::kernels::{Coordinate, EightBoxes, Instructions, Simd, dispatch};
 use crate::threads::{Executor, Grain};
 use crate::tree::Version;
+use pliant_exact::DEBUG;
 use std::ops::Range;
 
 /// Positions of a body's vertices, and positions at the end of its motion, if it has one.
@@ -78,7 +79,7 @@ impl<const C: usize> RunBoxes<C> {
         let mut eights = Vec::new();
         for elements in elements_of {
             // Up to three vertices, or edges, belong to a triangle.
-            debug_assert!(elements.len() <= MOST_OF_RUN, "{elements:?}");
+            assert!(!DEBUG || elements.len() <= MOST_OF_RUN, "{elements:?}");
             runs.push(Run {
                 hull: EightBoxes::EMPTY.get(0).into(),
                 first: eights.len() as u32,

@@ -743,6 +743,44 @@ fn a_mesh_that_is_set_has_all_its_vertices() {
     world.validate().unwrap();
 }
 
+/// A vertex is as thick as the one that it was split from, or else as the thickest.
+#[test]
+fn new_vertices_have_a_thickness() {
+    let (triangles, positions) = sheet(3);
+    let mut world = World::<f32>::new();
+    let body = world.add(&triangles, &positions).unwrap();
+    let mut thickness: Vec<f64> = (0..9).map(|vertex| f64::from(vertex) / 64.0).collect();
+    world.set_vertex_thickness(body, &thickness).unwrap();
+    let mut edit = world.edit(body).unwrap();
+    edit.split_vertex(1, &[0]);
+    edit.add_vertex([0.5, 0.5, 0.25]);
+    world.apply(&edit).unwrap();
+    thickness.extend([thickness[1], thickness[8]]);
+    assert_eq!(world.thickness(body), Ok(thickness));
+}
+
+/// The triangle that was nearest the last time is removed, and is not the nearest any more.
+#[test]
+fn what_is_removed_is_at_no_distance() {
+    let (triangles, flat) = sheet(12);
+    let mut above: Vec<[f32; 3]> = flat.iter().map(|[x, y, _]| [*x, *y, 1.0]).collect();
+    above[0][2] = 0.5;
+    for options in every_configuration().into_iter().step_by(7) {
+        let mut world = World::<f32>::with_options(options);
+        let [a, b] = [&flat, &above].map(|at| world.add(&triangles, at).unwrap());
+        let distance = |world: &mut World<f32>| {
+            let nearest = world.distance(a, b, 9.0).unwrap();
+            nearest.map(|nearest| nearest.distance)
+        };
+        assert_eq!(distance(&mut world), Some(0.5));
+        let at_corner = triangles.iter().position(|corners| corners.contains(&0));
+        let mut edit = world.edit(b).unwrap();
+        edit.remove_triangle(at_corner.unwrap() as u32);
+        world.apply(&edit).unwrap();
+        assert_eq!(distance(&mut world), Some(1.0), "{options:?}");
+    }
+}
+
 /// Boxes of a motion that an edit ended are not taken for boxes of the next motion.
 #[test]
 fn the_motion_after_an_edit_is_another() {

@@ -5,7 +5,7 @@ use pliant_bench::soak::{Soak, Tally};
 
 /// Number of parades, and of steps before each.
 const PARADES: usize = 3;
-const STEPS: usize = 25;
+const STEPS: usize = 12;
 
 /// Heap at the second and at the last parade, and the counts of what was done.
 fn play<S: pliant::Scalar>(mut soak: Soak<S>) -> ([i64; 2], Tally) {

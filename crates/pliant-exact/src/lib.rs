@@ -37,10 +37,10 @@ pub use point::{Point, Triangle};
 pub use ray::{Axis, Crossing, crossing};
 use std::cmp::Ordering;
 
-/// Whether debug assertions are compiled, also those of a crate that is compiled without.
+/// Whether debug assertions are compiled: the library asks this for its own.
 ///
-/// Tests of this workspace compile `pliant` so: what assertions inside the standard library add to
-/// each vector instruction is a third of its compilation and of its time.
+/// Tests of this workspace compile `pliant` without debug assertions. Assertions inside the
+/// standard library would be added to each vector instruction, and take half of the time.
 #[doc(hidden)]
 pub const DEBUG: bool = cfg!(debug_assertions);
 

@@ -136,7 +136,7 @@ impl Lists {
         self.edge_edge.extend(&other.edge_edge);
     }
 
-    /// The same pairs, with the second body of pairs of edges first.
+    /// Turns pairs of edges round: the second body comes first.
     fn turned(mut self) -> Self {
         for pair in &mut self.edge_edge {
             *pair = EdgeEdge {

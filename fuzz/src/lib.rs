@@ -53,7 +53,7 @@ pub fn read_as(ending: &str, contents: &[u8]) {
         argument = format!("{}+{argument}", mesh.display());
         memory.push((mesh, MESH.into()));
     }
-    let memory = Files::in_memory(memory);
+    let memory = Files::in_memory(memory).expect("names differ");
     let [welded, apart] = [true, false].map(|weld| {
         let [on_disk, in_memory] = [Files::default(), memory.clone()].map(|files| {
             let options = OpenOptions {

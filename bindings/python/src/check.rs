@@ -185,8 +185,9 @@ impl Name {
 /// - fps: frames a second at which glTF animations are evaluated
 /// - files: bytes of files by name, {"scan.obj": bytes}; paths then name these and no others. USD
 ///   is not read so
-/// - max_memory: limit of a frame that is read, and of a list of pairs, in bytes; None is 4 GiB for
+/// - max_memory: limit of a frame that is read, and of a list of pairs, in bytes. None is 4 GiB for
 ///   a frame, and no limit of lists
+/// - warn: gives remarks about files and bodies, as UserWarning
 /// - threads: how many share the work of a frame, at most, or "all" for one a core; no number
 ///   changes an answer
 ///
@@ -199,13 +200,13 @@ impl Name {
         ignore_adjacent=false, swept=false, first=false, weld=true, weld_tolerance=0.0,
         split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false,
         crossing_edges=false, places=false, solid=false, frames=None, clip=None, fps=30.0,
-        files=None, max_memory=None, threads=Threads::Count(1)
+        files=None, max_memory=None, warn=true, threads=Threads::Count(1)
     ),
     text_signature = "(*paths, itself=False, within=None, rest=None, labels=None, crossing=False, \
         ignore_adjacent=False, swept=False, first=False, weld=True, weld_tolerance=0.0, \
         split=None, groups=None, ignore=None, baseline=None, skip_degenerate=False, \
         crossing_edges=False, places=False, solid=False, frames=None, clip=None, fps=30.0, \
-        files=None, max_memory=None, threads=1)"
+        files=None, max_memory=None, warn=True, threads=1)"
 )]
 #[expect(
     clippy::too_many_arguments,
@@ -238,6 +239,7 @@ pub(crate) fn check(
     fps: f64,
     files: Option<BTreeMap<PathBuf, PyBackedBytes>>,
     max_memory: Option<u64>,
+    warn: bool,
     threads: Threads,
 ) -> Result<Check> {
     let group = |(name, bodies): (String, Vec<Name>)| {
@@ -273,6 +275,7 @@ pub(crate) fn check(
         max_list: max_memory.unwrap_or(u64::MAX),
         ..Settings::default()
     };
+    let say = |text: &str| if warn { remark(py, text) } else { Ok(()) };
     let paths = paths.into_iter().map(|path| Name::Path(path).into_text());
     let paths = paths.collect::<Result<Vec<_>>>()?;
     if let Some(pattern) = pliant_io::looks_like_a_series(&paths) {
@@ -281,7 +284,7 @@ pub(crate) fn check(
             paths.len(),
             shown(&pattern)
         );
-        warn(py, &text)?;
+        say(&text)?;
     }
     if weld_tolerance != 0.0 && !weld {
         return Err(refused!(BadOption:
@@ -295,10 +298,7 @@ pub(crate) fn check(
         clip,
         fps,
         max_memory: max_memory.unwrap_or(default.max_memory),
-        files: files.map_or(default.files, |files| {
-            let file = |(name, bytes): (_, PyBackedBytes)| (name, bytes.to_vec());
-            Files::in_memory(files.into_iter().map(file))
-        }),
+        files: files.map(in_memory).transpose()?.unwrap_or_default(),
     };
     let raised = Raised::default();
     let open = |path: &String| {
@@ -320,18 +320,18 @@ pub(crate) fn check(
     });
     for source in running.sources() {
         for note in source.notes() {
-            warn(py, &format!("{}: {note}", shown(source.name())))?;
+            say(&format!("{}: {note}", shown(source.name())))?;
         }
     }
     if running.lacks_adjacent() {
         let text = "the baseline has no pairs that share a vertex, so all of these count as new; \
                     write it again, or leave them out with ignore_adjacent=True";
-        warn(py, text)?;
+        say(text)?;
     }
     Ok(Check {
         bodies: facts(py, &running)?.unbind(),
         frame_count: running.frame_count(),
-        is_warned: AtomicBool::new(false),
+        is_warned: AtomicBool::new(!warn),
         running: Mutex::new(running),
         waiting: Mutex::new(None),
         raised,
@@ -425,17 +425,23 @@ impl Check {
     /// exception, as after Ctrl-C, the frames counted before are lost. Raises as going on does.
     fn counts<'py>(&self, py: Python<'py>) -> Result<Any<'py>> {
         let count = |running: &mut Running| {
-            running.ask(self.first, false);
             let mut counts = Counts::default();
             if let Some((found, _)) = alone(&self.waiting)?.take() {
                 counts.add(&found);
             }
-            while let Some(found) =
-                interruptible(|question| running.next_frame_unless(Some(question)))?
-            {
-                counts.add(&found);
-            }
-            Ok(counts)
+            running.ask(self.first, false);
+            let next = |running: &mut Running| {
+                interruptible(|question| running.next_frame_unless(Some(question)))
+            };
+            let end = loop {
+                match next(running) {
+                    Ok(Some(found)) => counts.add(&found),
+                    end => break end,
+                }
+            };
+            // Who goes on after an interruption has lists again.
+            running.ask(self.first, true);
+            end.map(|_| counts)
         };
         let counts = alone_with(py, &self.running, count);
         let counts = self.raised.rather(counts)?;
@@ -461,8 +467,13 @@ impl Check {
     }
 }
 
+fn in_memory(files: BTreeMap<PathBuf, PyBackedBytes>) -> Result<Files> {
+    let file = |(name, bytes): (_, PyBackedBytes)| (name, bytes.to_vec());
+    Ok(Files::in_memory(files.into_iter().map(file))?)
+}
+
 /// Gives a warning: a message that is no error.
-fn warn(py: Python<'_>, text: &str) -> PyResult<()> {
+fn remark(py: Python<'_>, text: &str) -> PyResult<()> {
     let text = CString::new(text).unwrap_or_default();
     PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)
 }
@@ -504,7 +515,7 @@ impl Check {
             Ok(at_seams.chain(parted).chain(sizes).collect::<Vec<_>>())
         })?;
         for text in said {
-            warn(py, &text)?;
+            remark(py, &text)?;
         }
         Ok(())
     }

@@ -206,8 +206,12 @@ fn after_reading(error: &pliant_io::Error) -> Option<&'static str> {
         Reason::NotFound if matches!(error.place(), Place::Part(..)) => {
             Some("the glTF file keeps data there: copy it along, to where that file is")
         }
-        Reason::NotFound => Some("the path is taken from the current folder, os.getcwd()"),
-        Reason::NoMatch => Some("the pattern is taken from the current folder, os.getcwd()"),
+        Reason::NotFound => {
+            Some("it is taken from the current folder, os.getcwd(), or is a key of files=")
+        }
+        Reason::NoMatch => {
+            Some("it is taken from the current folder, os.getcwd(), or is of keys of files=")
+        }
         Reason::Pattern(_) => Some("in a pattern, write [[] for the [ of a name"),
         Reason::Io(_) => Some("see that you may read it and that its disk is there"),
         Reason::Malformed(_)

@@ -148,10 +148,10 @@ ADVICE: list[tuple[Callable[[pliant.World], Any], str]] = [
         "start and end have one row for each pair",
     ),
     (lambda w: pliant.check(), 'name files, as in pliant.check("cloth_*.obj")'),
-    (lambda w: pliant.check("absent.obj"), "the path is taken from the current folder, os.getcwd()"),
+    (lambda w: pliant.check("absent.obj"), "it is taken from the current folder, os.getcwd(), or is a key of files="),
     (
         lambda w: pliant.check("absent_*.obj"),
-        "the pattern is taken from the current folder, os.getcwd()",
+        "it is taken from the current folder, os.getcwd(), or is of keys of files=",
     ),
 ]
 

@@ -42,7 +42,7 @@ impl Opened {
                 opened.sources.extend(open(argument)?);
                 continue;
             };
-            let path = canonical_path(file);
+            let path = among.one_spelling(Path::new(file));
             let source = match files.entry(path) {
                 Entry::Occupied(known) => *known.get(),
                 Entry::Vacant(new) => {
@@ -59,18 +59,4 @@ impl Opened {
         }
         Ok(opened)
     }
-}
-
-/// Canonical path of a file, or of a pattern in a folder: equal for every spelling of it.
-fn canonical_path(file: &str) -> PathBuf {
-    let path = Path::new(file);
-    let in_folder = || {
-        let folder = match path.parent()? {
-            folder if folder.as_os_str().is_empty() => Path::new("."),
-            folder => folder,
-        };
-        Some(folder.canonicalize().ok()?.join(path.file_name()?))
-    };
-    let found = path.canonicalize().ok().or_else(in_folder);
-    found.unwrap_or_else(|| path.to_owned())
 }

@@ -1,11 +1,10 @@
 //! Detection of files that change while they are read.
 //!
-//! A program may still be writing a file, a copy may not be done, or a frame may be replaced before
-//! its turn. So a file's identity, length and modification time are recorded when it is found
+//! A file may still be written, or be replaced before its turn. So a file's identity, length and modification time are recorded when it is found
 //! ([`Found`]). They are compared when it is opened and after every frame. A change in place, of
 //! equal length and within one tick of the file system's clock, goes unseen; NPZ files also have
 //! checksums. Opening never waits: a pipe that has replaced a file is refused like any other
-//! change. Files in memory cannot change.
+//! change.
 
 use std::fmt;
 use std::fs::{File, Metadata};
@@ -40,7 +39,7 @@ pub(crate) enum Opened {
     Memory(Cursor<Bytes>),
 }
 
-/// Bytes of a file in memory; clones share them.
+/// Bytes of a file in memory, which cannot change; clones share them.
 #[derive(Clone, PartialEq, Eq)]
 pub(crate) struct Bytes(Arc<Vec<u8>>);
 

@@ -1,7 +1,8 @@
-//! Files that arguments name: those of the system, or some in memory.
+//! Files that arguments name: the system's, or some in memory.
 //!
-//! Names, folders and patterns mean the same in both. In memory `/` parts folders, a folder exists
-//! where a file is in it, and there are no links, pipes or changes.
+//! Names, folders and patterns mean the same in both. In memory `/` parts folders, and one exists
+//! where a file is in it. A `/` before all is passed over, and `..` goes back a folder. There are no
+//! links, pipes or changes.
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -10,10 +11,10 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-use crate::error::Reason;
+use crate::error::{Error, Reason};
 use crate::file::{Bytes, Found};
 
-/// Files that arguments name: those of the system, which is the default, or some in memory.
+/// Files that arguments name: by default the system's, or some in memory.
 ///
 /// Clones share the bytes, which do not count towards
 /// [`max_memory`](crate::OpenOptions::max_memory).
@@ -24,7 +25,7 @@ use crate::file::{Bytes, Found};
 /// let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 /// let dropped = [1, 2].map(|frame| (format!("walk_{frame}.obj"), triangle.into()));
 /// let options = OpenOptions {
-///     files: Files::in_memory(dropped),
+///     files: Files::in_memory(dropped)?,
 ///     ..OpenOptions::default()
 /// };
 /// assert_eq!(pliant_io::open("walk_*.obj", &options)?.frame_count(), 2);
@@ -52,10 +53,36 @@ impl From<fs::FileType> for Kind {
 }
 
 impl Files {
-    /// Files in memory, by name; of equal names the last counts.
-    pub fn in_memory<N: Into<PathBuf>>(files: impl IntoIterator<Item = (N, Vec<u8>)>) -> Self {
-        let file = |(name, bytes): (N, _)| (plain(&name.into()), Bytes::from(bytes));
-        Self(Some(Arc::new(files.into_iter().map(file).collect())))
+    /// Files in memory, by name.
+    ///
+    /// # Errors
+    ///
+    /// Two names mean one file, as `a.obj` and `./a.obj` do.
+    pub fn in_memory<N: Into<PathBuf>>(
+        files: impl IntoIterator<Item = (N, Vec<u8>)>,
+    ) -> Result<Self, Error> {
+        let mut all = BTreeMap::new();
+        for (name, bytes) in files {
+            let name = name.into();
+            if all.insert(plain(&name), Bytes::from(bytes)).is_some() {
+                let why = "two files in memory have this name; give each a name of its own";
+                return Err(Error::new(name, Reason::Unsupported(why.into())));
+            }
+        }
+        Ok(Self(Some(Arc::new(all))))
+    }
+
+    /// A name that is equal for every spelling of a file, or of a pattern in a folder.
+    pub fn one_spelling(&self, path: &Path) -> PathBuf {
+        if self.0.is_some() || IS_SEALED {
+            return plain(path);
+        }
+        let in_folder = || {
+            let folder = or_here(path.parent()?);
+            Some(folder.canonicalize().ok()?.join(path.file_name()?))
+        };
+        let found = path.canonicalize().ok().or_else(in_folder);
+        found.unwrap_or_else(|| path.to_owned())
     }
 
     /// The kind of what has this name, at the end of all links; an error where nothing has it.
@@ -121,7 +148,7 @@ impl Files {
     ///
     /// A folder from strangers may hold links to files that are no part of any shape.
     pub(crate) fn find_below(&self, folder: &Path, path: PathBuf) -> Result<Found, Reason> {
-        if self.0.is_some() {
+        if self.0.is_some() || IS_SEALED {
             return self.find(path);
         }
         let real = match path.canonicalize() {
@@ -141,24 +168,34 @@ impl Files {
     }
 }
 
+/// Whether the program sees nothing but the folders that it was given, and cannot ask where a link
+/// leads.
+const IS_SEALED: bool = cfg!(target_os = "wasi");
+
 /// The kind of what has this name in memory.
 fn in_memory(files: &BTreeMap<PathBuf, Bytes>, path: &Path) -> Option<Kind> {
+    let asks_for_folder = path.to_string_lossy().ends_with('/');
     let path = plain(path);
     if files.contains_key(&path) {
-        return Some(Kind::File);
+        return (!asks_for_folder).then_some(Kind::File);
     }
     // Names are in order, and what is in a folder comes behind it.
-    let mut behind = files.range(path.clone()..);
-    behind
-        .next()
-        .filter(|(first, _)| first.starts_with(&path))
-        .map(|_| Kind::Folder)
+    let first = files.range(path.clone()..).next();
+    let is_in_it = |(file, _): &(&PathBuf, &Bytes)| file.starts_with(&path);
+    (path.as_os_str().is_empty() || first.is_some_and(|it| is_in_it(&it))).then_some(Kind::Folder)
 }
 
-/// The path without what does not change it: `./a//b` and `/a/b` are `a/b`.
+/// The path without what does not change it: `./a//b`, `/a/b` and `c/../a/b` are `a/b`.
 fn plain(path: &Path) -> PathBuf {
-    let changes = |it: &Component<'_>| !matches!(it, Component::CurDir | Component::RootDir);
-    path.components().filter(changes).collect()
+    let mut plain = PathBuf::new();
+    for component in path.components() {
+        match component {
+            Component::CurDir | Component::RootDir => {}
+            Component::ParentDir if plain.pop() => {}
+            other => plain.push(other),
+        }
+    }
+    plain
 }
 
 /// The folder, where the empty path is the current one.
@@ -177,8 +214,27 @@ mod tests {
     #[test]
     fn names_in_memory_are_like_names_on_disk() {
         let names = ["b/c.obj", "./b.obj", "/b/d/e.obj", "b-1.obj"];
-        let files = Files::in_memory(names.map(|name| (name, name.as_bytes().to_vec())));
-        for name in ["b/c.obj", "b.obj", "./b//d/e.obj", "b-1.obj"] {
+        let files = Files::in_memory(names.map(|name| (name, name.as_bytes().to_vec()))).unwrap();
+        // On disk the same, but for the folder in which all are.
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir_all(folder.path().join("b/d")).unwrap();
+        for name in names {
+            fs::write(folder.path().join(name.trim_start_matches('/')), "").unwrap();
+        }
+        let disk = |name: &str| Files::default().kind(&folder.path().join(name)).ok();
+        for name in [
+            "b/c.obj",
+            "b.obj",
+            "b.obj/",
+            "b",
+            "b/",
+            "b/d/../c.obj",
+            "b/c",
+            "b/c.obj/d",
+        ] {
+            assert_eq!(files.kind(name.as_ref()).ok(), disk(name), "{name}");
+        }
+        for name in ["b/c.obj", "b.obj", "./b//d/e.obj", "b-1.obj", "b/../b.obj"] {
             assert!(files.is_file(name.as_ref()), "{name}");
             assert!(files.find(name.into()).is_ok(), "{name}");
         }
@@ -199,7 +255,14 @@ mod tests {
         };
         assert_eq!(sorted(""), ["b", "b-1.obj", "b.obj"]);
         assert_eq!(sorted("./b"), ["c.obj", "d"]);
-        assert!(!Files::in_memory::<PathBuf>([]).exists("a".as_ref()));
+        let none = Files::in_memory::<PathBuf>([]).unwrap();
+        assert!(!none.exists("a".as_ref()) && none.is_folder("".as_ref()));
+        let twice = Files::in_memory(["a.obj", "./a.obj"].map(|name| (name, Vec::new())));
+        let error = twice.unwrap_err().to_string();
+        assert!(error.contains("./a.obj: two files"), "{error}");
+        for spelling in ["./b/c.obj", "b/d/../c.obj"] {
+            assert_eq!(files.one_spelling(spelling.as_ref()), Path::new("b/c.obj"));
+        }
         assert!(Files::default() != files && files == files.clone());
     }
 }

@@ -50,7 +50,7 @@ pub struct OpenOptions {
     pub clip: Option<String>,
     /// Frames per second at which an animation is evaluated. Default: 30.
     pub fps: f64,
-    /// Files that arguments name. Default: those of the system.
+    /// Files that arguments name. Default: the system's.
     pub files: Files,
 }
 

@@ -134,7 +134,7 @@ mod tests {
         let name = |path: &PathBuf| path.strip_prefix(within).unwrap().to_str().unwrap().into();
         let mut names: Vec<String> = all.iter().map(name).collect();
         names.sort();
-        let memory = Files::in_memory(files.iter().map(|&file| (file, Vec::new())));
+        let memory = Files::in_memory(files.iter().map(|&file| (file, Vec::new()))).unwrap();
         let mut in_memory = matching(pattern, &memory).unwrap();
         in_memory.sort();
         assert!(

@@ -535,6 +535,7 @@ def check(
     fps: float = 30.0,
     files: Mapping[str | PathLike[str], bytes | bytearray] | None = None,
     max_memory: int | None = None,
+    warn: bool = True,
     threads: int | Literal["all"] = 1,
 ) -> Check:
     """Checks files frame by frame, as the program `pliant check` does: an iterator of Frame."""

@@ -33,7 +33,7 @@ fn survives(ending: &str, contents: &[u8]) {
     FOLDER.write(&name, contents);
     let in_folder = |(name, contents): (&str, &[u8])| (FOLDER.argument(name), contents.to_vec());
     let files = BESIDE.into_iter().chain([(name.as_str(), contents)]);
-    let memory = Files::in_memory(files.map(in_folder));
+    let memory = Files::in_memory(files.map(in_folder)).unwrap();
     let mut argument = FOLDER.argument(&name);
     if [".pc2", ".mdd"].contains(&ending) {
         argument = format!("{}+{argument}", FOLDER.argument("mesh.obj"));

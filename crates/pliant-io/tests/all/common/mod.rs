@@ -76,7 +76,7 @@ impl Folder {
                 }
             }
         }
-        Some(Files::in_memory(files))
+        Some(Files::in_memory(files).unwrap())
     }
 
     /// The error when a body is opened or read, without the folder's name.

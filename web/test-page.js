@@ -144,7 +144,7 @@ test('each choice is a flag of the line, and changes what is asked', { skip }, a
   for (const name of ['itself', 'solid', 'crossing']) await it.page.check(`[name=${name}]`);
   await it.page.uncheck('[name=adjacent]');
   await it.again();
-  assert.equal(await it.line(), 'pliant check also.obj two.obj --self --solid --crossing --ignore-adjacent --max-memory 2GiB');
+  assert.equal(await it.line(), 'pliant check also.obj two.obj --self --solid --crossing --ignore-adjacent --max-memory=2GiB');
   assert.deepEqual(pairs(JSON.parse(await it.saved('save-json'))), pairs(pliant(folder, await it.line())));
   const old = await it.saved('save-json');
   await it.drop(written('old.json', old));
@@ -169,6 +169,36 @@ test('sequences by name are one body, and may be several; what meets on the way 
   await it.page.uncheck('[name=swept]');
   await it.again();
   assert.match(await it.line(), /floor\.obj leaf_9\.obj leaf_10\.obj/);
+  await it.close();
+});
+
+test('names in any letters, files beside files, groups, and what is dropped twice', { skip }, async () => {
+  const it = await open();
+  const name = `${'\u043a\u0443\u043a\u043b\u0430\u65e5\u672c'.repeat(8)}.obj`;
+  await it.drop(written(name, CROSSING));
+  assert.match(await it.answer(), /Something is found in 1 body, 1 frame/);
+  assert.deepEqual(JSON.parse(await it.saved('save-json')).bodies.map((body) => body.name), [name]);
+  await it.drop(written(name, CROSSING.replace(' -1\n', ' 0.5\n')));
+  assert.match(await it.answer(), /Nothing intersects: 1 body, 1 frame.*took its place/s);
+  await it.page.click('#list button');
+  const positions = Buffer.from(new Float32Array([0, 0, 0, 2, 0, 0, 0, 2, 0, 0.5, 0.5, -1, 0.5, 0.5, 1, 1, 0.5, 1]).buffer);
+  const document = { asset: { version: '2.0' }, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }], meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }],
+    accessors: [{ bufferView: 0, componentType: 5126, count: 6, type: 'VEC3' }], bufferViews: [{ buffer: 0, byteLength: 72 }], buffers: [{ byteLength: 72, uri: 'two.bin' }] };
+  await it.drop(written('two.gltf', JSON.stringify(document)), written('two.bin', positions));
+  assert.match(await it.answer(), /Something is found in 1 body/);
+  assert.match(await it.page.textContent('#list'), /two\.bin.*no body/s);
+  while (await it.page.locator('#list button').count()) await it.page.locator('#list button').first().click();
+  // A body in a body is no intersection, and is said.
+  const cube = (size) => `${[0, 1, 2, 3, 4, 5, 6, 7].map((i) => `v ${[i & 1, (i >> 1) & 1, i >> 2].map((x) => (x ? size : -size)).join(' ')}`).join('\n')}\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n`;
+  await it.drop(written('outer.obj', cube(2)), written('inner.obj', cube(1)));
+  assert.match(await it.answer(), /Nothing intersects: 2 bodies.*lies inside/s);
+  await it.page.fill('[name=within]', '0.5');
+  await it.again();
+  assert.match(await it.answer(), /Nothing is within 0\.5/);
+  // A file that changes after it was dropped is dropped again.
+  written('inner.obj', `${cube(1)}# more\n`);
+  await it.again();
+  assert.match(await it.answer(), /inner\.obj has changed/);
   await it.close();
 });
 

@@ -70,6 +70,17 @@ test('sequences: what meets on the way, and when, is the same', { skip }, () => 
   assert.match(found.stdout, /"time"/);
 });
 
+test('files beside files, and groups of a file, are the same', { skip }, () => {
+  writeFileSync(join(folder, 'two.bin'), Buffer.from(new Float32Array([0, 0, 0, 2, 0, 0, 0, 2, 0, 0.5, 0.5, -1, 0.5, 0.5, 1, 1, 0.5, 1]).buffer));
+  writeFileSync(join(folder, 'two.gltf'), JSON.stringify({
+    asset: { version: '2.0' }, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }], meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }],
+    accessors: [{ bufferView: 0, componentType: 5126, count: 6, type: 'VEC3' }], bufferViews: [{ buffer: 0, byteLength: 72 }], buffers: [{ byteLength: 72, uri: 'two.bin' }],
+  }));
+  assert.equal(same('check', 'two.gltf', '--format', 'json').status, 1);
+  writeFileSync(join(folder, 'groups.obj'), 'v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0.5 0.5 -1\nv 0.5 0.5 1\nv 1 0.5 1\ng a\nf 1 2 3\ng b\nf 4 5 6\n');
+  assert.equal(same('check', 'groups.obj#a', './groups.obj#b', '--format', 'json').status, 1);
+});
+
 test('errors are the same', { skip }, () => {
   const files = {
     'nan.obj': 'v 0 0 nan\nf 1 1 1\n',

@@ -15,10 +15,21 @@ const escaped = (text) => text.replace(/[*?[\]]/g, (sign) => `[${sign}]`);
 /** Numbers in order, as `frame2` before `frame10`. */
 const natural = new Intl.Collator('en', { numeric: true });
 
+/** Whether a pattern that `series` makes matches a name, as the program would have it. */
+export function matches(pattern, name) {
+  const expression = pattern.replace(/\[(0-9|.)\]|\*|[^[*]+/g, (part, set) => {
+    if (part === '*') return '.*';
+    if (set) return set === '0-9' ? '[0-9]' : `\\${set}`;
+    return part.replace(/[\\^$.|?+(){}\]]/g, '\\$&');
+  });
+  return new RegExp(`^${expression}$`, 's').test(name) && !(pattern.startsWith('*') && name.startsWith('.'));
+}
+
 /**
  * Series among names: at least two files of one frame that are equal but for one number.
  *
- * Returns { pattern, names } for each, names in natural order. Of several numbers in a name the last that varies counts.
+ * Returns { pattern, names } for each, names in natural order. Of several numbers in a name the last that varies counts. The
+ * pattern matches these names and no others; where there is no such pattern, there is no series.
  */
 export function series(names) {
   const groups = new Map();
@@ -37,7 +48,12 @@ export function series(names) {
   for (const { at, parts, names: its } of longest) {
     const free = its.filter((name) => !taken.has(name));
     if (free.length < 2) continue;
-    const pattern = parts.map((part, place) => (place === at ? '*' : escaped(part))).join('');
+    const digits = Math.max(...free.map((name) => name.split(/(\d+)/)[at].length));
+    const numbers = ['*', '[0-9]*', ...Array.from({ length: digits }, (_, most) => '[0-9]'.repeat(most + 1))];
+    const patterns = numbers.map((number) => parts.map((part, place) => (place === at ? number : escaped(part))).join(''));
+    const fits = (pattern) => !names.includes(pattern) && names.every((name) => matches(pattern, name) === free.includes(name));
+    const pattern = patterns.find(fits);
+    if (pattern === undefined) continue;
     free.forEach((name) => taken.add(name));
     found.push({ pattern, names: free.sort(natural.compare) });
   }
@@ -47,10 +63,11 @@ export function series(names) {
 /**
  * Bodies among names: { argument, names } for each, in natural order.
  *
- * A series is one body if `asSeries`. A file of positions moves the mesh of its name, or the only mesh there is.
+ * A series is one body if `asSeries`. A file of positions moves the mesh of its name, or the only mesh there is. Names in `besides`
+ * are no bodies: a rest shape, an earlier check.
  */
-export function bodies(names, asSeries) {
-  const rest = new Set(names.filter((name) => !BESIDE.test(name) && !CHECK.test(name)));
+export function bodies(names, asSeries, besides = []) {
+  const rest = new Set(names.filter((name) => !BESIDE.test(name) && !CHECK.test(name) && !besides.includes(name)));
   const found = [];
   for (const cache of [...rest].filter((name) => CACHE.test(name))) {
     const stem = cache.replace(CACHE, '').toLowerCase();
@@ -87,20 +104,22 @@ export function flags(choices) {
   const words = [];
   const flag = (is, ...flag) => { if (is) words.push(...flag); };
   flag(itself, '--self');
-  flag(within.trim(), '--within', within.trim());
-  flag(rest.trim(), '--rest', rest.trim());
+  // With `=`, so that a value may begin as a flag does.
+  const value = (name, text) => { if (text.trim()) words.push(`--${name}=${text.trim()}`); };
+  value('within', within);
+  value('rest', rest);
   flag(swept, '--swept');
   flag(solid, '--solid');
   flag(crossing, '--crossing');
   flag(!adjacent, '--ignore-adjacent');
   flag(!weld, '--no-weld');
-  flag(tolerance.trim(), '--weld', tolerance.trim());
-  flag(split, '--split', split);
-  for (const pair of ignore.split('\n')) flag(pair.trim(), '--ignore', pair.trim());
-  flag(baseline.trim(), '--baseline', baseline.trim());
-  flag(frames.trim(), '--frames', frames.trim());
-  flag(clip.trim(), '--clip', clip.trim());
-  flag(memory !== '4GiB', '--max-memory', memory);
+  value('weld', tolerance);
+  value('split', split);
+  for (const pair of ignore.split('\n')) value('ignore', pair);
+  value('baseline', baseline);
+  value('frames', frames);
+  value('clip', clip);
+  flag(memory !== '4GiB', `--max-memory=${memory}`);
   return words;
 }
 

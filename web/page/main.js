@@ -5,8 +5,9 @@ import { DEFAULTS, bodies, flags, line, series } from './arguments.js';
 
 const at = (id) => document.getElementById(id);
 const [form, list, answer, frame] = ['form', 'list', 'answer', 'report'].map(at);
-/** Files by name, as they were dropped. */
+/** Files by name, as they were dropped; and what is to be said of that. */
 const files = new Map();
+let replaced = [];
 /** The check that runs: its worker, and its answer so far. */
 let running = null;
 /** Addresses of what was made before, to be given back. */
@@ -28,30 +29,40 @@ function choices() {
   return Object.fromEntries(Object.keys(DEFAULTS).map((name) => [name, its(name).type === 'checkbox' ? its(name).checked : its(name).value]));
 }
 
-const found = () => bodies([...files.keys()], form.elements.series.checked);
+const found = () => bodies([...files.keys()], form.elements.series.checked, ['rest', 'baseline'].map((name) => form.elements[name].value.trim()));
 
 function showFiles() {
   at('series').hidden = series([...files.keys()]).length === 0;
-  list.replaceChildren(...found().map(({ argument, names }) => {
+  const all = found();
+  const of = new Set(all.flatMap(({ names }) => names));
+  const besides = [...files.keys()].filter((name) => !of.has(name)).map((name) => ({ argument: name, names: [name], besides: true }));
+  list.replaceChildren(...[...all, ...besides].map(({ argument, names, besides }) => {
     const bytes = names.reduce((sum, name) => sum + files.get(name).size, 0);
     const size = bytes < 1e6 ? `${Math.ceil(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
-    const what = names.length > 1 ? `${counted(names.length, 'file')}, ${size}` : size;
+    const what = besides ? `${size}, no body` : names.length > 1 ? `${counted(names.length, 'file')}, ${size}` : size;
     const away = () => {
       names.forEach((name) => files.delete(name));
+      clear();
       showFiles();
       at('files').focus();
     };
     return element('li', {}, element('span', {}, argument), ' ', element('span', { className: 'hint' }, what), ' ',
       element('button', { type: 'button', className: 'quiet', 'aria-label': `Take away ${argument}`, onclick: away }, '×'));
   }));
-  at('check').disabled = files.size === 0;
+  at('check').disabled = all.length === 0;
 }
 
 function take(some) {
+  if (some.length === 0) return;
+  replaced = some.filter((file) => files.has(file.name)).map((file) => file.name);
   for (const file of some) files.set(file.name, file);
-  if (some.length > 0) {
-    showFiles();
+  showFiles();
+  if (found().length > 0) {
     check();
+  } else {
+    clear();
+    say(['There is no mesh among these files; drop one too.', 'error']);
+    document.body.dataset.state = 'done';
   }
 }
 
@@ -79,6 +90,16 @@ function offer(id, parts, type) {
   return address;
 }
 
+/** What the check says, in a sentence: what was asked, of how much, and what was found. */
+function verdict(code, mine) {
+  const { within, swept } = mine.choices;
+  const of = `${counted(mine.bodies, 'body', 'bodies')}, ${counted(mine.checked(), 'frame')}`;
+  const inside = mine.inside ? [['Something lies inside a closed body, which is no intersection: Save as JSON says what.', 'found']] : [];
+  if (code === 1) return [[`Something is found in ${of}; the report says what and where.`, 'found'], ...inside];
+  const nothing = within.trim() ? `Nothing is within ${within.trim()} of each other` : swept ? 'Nothing intersects, nor meets on the way' : 'Nothing intersects';
+  return [[`${nothing}: ${of}.`, 'clear'], ...inside];
+}
+
 async function check() {
   clear();
   const words = [...found().map(({ argument }) => argument), ...flags(choices())];
@@ -87,7 +108,10 @@ async function check() {
   at('cancel').hidden = false;
   const progress = element('p', { className: 'progress' }, 'Reading');
   answer.append(progress);
-  const mine = { worker: new Worker(worker), output: [], frames: -1, began: performance.now() };
+  const mine = { worker: new Worker(worker), output: [], lines: 0, text: '', bodies: 0, inside: false, choices: choices(), files: [...files.values()], began: performance.now() };
+  // A line ends with each frame; with ways, every other is the way from the frame before. The first line says which bodies there are.
+  mine.checked = () => { const frames = Math.max(0, mine.lines - 1); return mine.choices.swept ? Math.ceil(frames / 2) : frames; };
+  const decoder = new TextDecoder();
   running = mine;
   const end = (...said) => {
     mine.worker.terminate();
@@ -104,21 +128,30 @@ async function check() {
   mine.worker.onmessage = ({ data }) => {
     if (data.output) {
       mine.output.push(data.output);
-      // A line ends with each frame; the first says which bodies there are.
-      for (const byte of data.output) mine.frames += byte === 10;
-      // With ways, every other line is the way from the frame before.
-      const checked = form.elements.swept.checked ? Math.ceil(mine.frames / 2) : mine.frames;
+      mine.text += decoder.decode(data.output, { stream: true });
+      const lines = mine.text.split('\n');
+      mine.text = lines.pop();
+      for (const it of lines) {
+        if (mine.lines === 0) mine.bodies = JSON.parse(`${it}]}`).bodies.length;
+        mine.lines += /^\]/.test(it) ? 0 : 1;
+        mine.inside ||= it.includes('"inside":[[');
+      }
+      const checked = mine.checked();
       progress.textContent = checked > 0 ? `${counted(checked, 'frame')} checked` : 'Checking';
     } else if (data.note !== undefined) {
       mine.notes.push(data.note);
+    } else if (data.unreadable !== undefined) {
+      end([`${data.unreadable} has changed since it was dropped, or cannot be read; drop it again.`, 'error']);
     } else if (data.broken !== undefined) {
       const full = data.bytes > 3.5 * 2 ** 30;
       end([full ? 'The check needs more memory than a page can have, 4 GiB. The program on your machine has no such limit.'
         : `The program has stopped, which is a bug of it or of this browser: ${data.broken}`, 'error'], ...mine.notes.map((note) => [note, 'note']));
     } else {
       const kind = data.code === 2 ? 'error' : 'note';
-      const verdict = { 0: ['Nothing intersects.', 'clear'], 1: ['Something is found; the report says what and where.', 'found'], 2: ['The check could not be done.', 'error'] }[data.code];
-      end(verdict, ...mine.notes.map((note) => [note, kind]));
+      const said = data.code === 2 ? [['The check could not be done.', 'error']] : verdict(data.code, mine);
+      const old = replaced.map((name) => [`${name} was there before; the new one took its place.`, 'note']);
+      replaced = [];
+      end(...said, ...mine.notes.map((note) => [note, kind]), ...old);
       document.body.dataset.code = data.code;
       document.body.dataset.ms = Math.round(performance.now() - mine.began);
       if (mine.output.length > 0) offer('save-json', mine.output, 'application/json');
@@ -129,7 +162,7 @@ async function check() {
     }
   };
   try {
-    mine.worker.postMessage({ module: await program, words, files: [...files.values()] });
+    mine.worker.postMessage({ module: await program, words, files: mine.files });
   } catch (error) {
     end([`This browser cannot run the program: ${error.message}`, 'error']);
   }
@@ -143,7 +176,7 @@ form.addEventListener('submit', (event) => {
   event.preventDefault();
   check();
 });
-form.elements.series.addEventListener('change', showFiles);
+for (const name of ['series', 'rest', 'baseline']) form.elements[name].addEventListener('change', showFiles);
 at('cancel').addEventListener('click', () => {
   clear();
   say(['Cancelled.', 'note']);

@@ -6,6 +6,13 @@ import { ConsoleStdout, PreopenDirectory, SyncOPFSFile, WASI } from '@bjorn3/bro
 const AT_A_TIME = 1 << 22;
 const REPORT = 'report.html';
 
+/** Files of which a piece is held at most: a sequence may have thousands. */
+const MOST_HELD = 8;
+const held = [];
+
+/** A file that has changed since it was dropped, or that the browser cannot read. */
+class Unreadable extends Error {}
+
 /** A file that was dropped, as the shim reads files: in pieces, when the program asks for them, never as a whole. */
 class Dropped {
   constructor(file) {
@@ -24,7 +31,13 @@ class Dropped {
       const place = at + filled - this.begin;
       if (place < 0 || place >= this.bytes.length) {
         this.begin = at + filled;
-        this.bytes = new Uint8Array(this.reader.readAsArrayBuffer(this.file.slice(this.begin, this.begin + AT_A_TIME)));
+        try {
+          this.bytes = new Uint8Array(this.reader.readAsArrayBuffer(this.file.slice(this.begin, this.begin + AT_A_TIME)));
+        } catch {
+          throw new Unreadable(this.file.name);
+        }
+        if (!held.includes(this)) held.push(this);
+        if (held.length > MOST_HELD) held.shift().bytes = new Uint8Array();
         if (this.bytes.length === 0) break;
         continue;
       }
@@ -41,13 +54,20 @@ onmessage = ({ data: { module, words, files } }) => {
   const output = new ConsoleStdout((bytes) => postMessage({ output: bytes.slice() }));
   const notes = ConsoleStdout.lineBuffered((note) => postMessage({ note }));
   const wasi = new WASI(['pliant', 'check', ...words, '--format', 'json', '--report', REPORT], [], [new ConsoleStdout(() => {}), output, notes, folder]);
-  // The signs of a folder of its own; what the program never calls without threads is not there.
+  // The shim counts the letters of an argument where it should count its bytes.
+  wasi.wasiImport.args_sizes_get = (count, size) => {
+    const view = new DataView(instance.exports.memory.buffer);
+    view.setUint32(count, wasi.args.length, true);
+    view.setUint32(size, wasi.args.reduce((sum, word) => sum + new TextEncoder().encode(word).length + 1, 0), true);
+    return 0;
+  };
   const instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: wasi.wasiImport });
   let code;
   try {
     code = wasi.start(instance);
   } catch (error) {
-    postMessage({ broken: String(error?.message ?? error), bytes: instance.exports.memory.buffer.byteLength });
+    const bytes = instance.exports.memory.buffer.byteLength;
+    postMessage(error instanceof Unreadable ? { unreadable: error.message } : { broken: String(error?.message ?? error), bytes });
     return;
   }
   const report = folder.dir.contents.get(REPORT)?.data;

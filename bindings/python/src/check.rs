@@ -237,7 +237,7 @@ pub(crate) fn check(
     frames: Option<&Bound<'_, PyRange>>,
     clip: Option<String>,
     fps: f64,
-    files: Option<BTreeMap<PathBuf, PyBackedBytes>>,
+    files: Option<BTreeMap<String, PyBackedBytes>>,
     max_memory: Option<u64>,
     warn: bool,
     threads: Threads,
@@ -467,7 +467,7 @@ impl Check {
     }
 }
 
-fn in_memory(files: BTreeMap<PathBuf, PyBackedBytes>) -> Result<Files> {
+fn in_memory(files: BTreeMap<String, PyBackedBytes>) -> Result<Files> {
     let file = |(name, bytes): (_, PyBackedBytes)| (name, bytes.to_vec());
     Ok(Files::in_memory(files.into_iter().map(file))?)
 }

@@ -10,6 +10,7 @@ import pickle
 import struct
 import subprocess
 import sys
+import warnings
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
@@ -194,6 +195,11 @@ def test_lists_that_are_no_mesh_are_rows_with_errors() -> None:
     assert all(row["error"] for row in rows(pliant.arrow.check(record, "f", faces="v")))
     two = arro3.list_array(arro3.Array.from_numpy(np.array([0, 2, 4], np.int32)), arro3.Array.from_numpy(np.arange(4.0)))
     pairs = arro3.list_array(arro3.Array.from_numpy(np.array([0, 1, 2], np.int32)), two)
+    # A list that is null, among lists that are not.
+    inner = arro3.fixed_size_list_array(arro3.Array.from_numpy(np.arange(9.0)), 3, mask=arro3.Array([False, True, False], type=arro3.DataType.bool()))
+    holes = arro3.list_array(arro3.Array.from_numpy(np.array([0, 3], np.int32)), inner)
+    (row,) = rows(pliant.arrow.check(batch(v=holes, f=lists([np.array([[0, 1, 2]])], 3)), "v", faces="f"))
+    assert "null" in row["error"]
     for column, says in [(two, "three by three"), (pairs, "other than three"), (batch(x=[b"", b""]).column("x"), "lists of numbers")]:
         found = rows(pliant.arrow.check(batch(v=column, f=column), "v", faces="f"))
         assert all(says in row["error"] for row in found), found
@@ -208,7 +214,15 @@ def test_what_is_asked_wrongly_is_refused() -> None:
     for arguments in wrong:
         with pytest.raises(pliant.Error):
             pliant.arrow.check(record, **arguments)
-    for option in ("files", "swept", "no_such"):
+    for keep in ("line", ["mesh", "mesh"]):
+        with pytest.raises(pliant.Error, match="keep names"):
+            pliant.arrow.check(record, keep=keep)
+    for frame in ("baseline", "rest"):
+        with pytest.raises(TypeError, match="number of a frame"):
+            pliant.arrow.check(record, **{frame: "old.json"})
+    with pytest.raises(TypeError):
+        pliant.arrow.check(batch(mesh=[]), within="far")
+    for option in ("files", "swept", "labels", "no_such"):
         options: dict[str, Any] = {option: True}
         with pytest.raises(TypeError, match=option):
             pliant.arrow.check(record, **options)
@@ -216,9 +230,38 @@ def test_what_is_asked_wrongly_is_refused() -> None:
         pliant.arrow.check([CROSSING])
 
 
+def test_columns_that_mean_one_file_are_errors_of_rows() -> None:
+    (row,) = rows(pliant.arrow.check(batch(**{"x": [CROSSING], "./x": [APART]}), ["x", "./x"]))
+    assert "two files" in row["error"]
+
+
+def test_a_panic_of_a_library_is_an_error_of_its_row() -> None:
+    pa = pytest.importorskip("pyarrow")
+    wrong = pa.Array.from_buffers(pa.string(), 2, pa.array([CROSSING, b"\xff\xfe"]).buffers())
+    found = pliant.arrow.check(pa.record_batch({"mesh": wrong}))
+    assert found["pairs"].to_pylist() == [1, None] and found["error"][1].as_py()
+
+
 def test_an_empty_batch_has_an_empty_answer() -> None:
     found = pliant.arrow.check(batch(mesh=[]))
     assert found.num_rows == 0 and found.column_names[:2] == ["line", "bodies"]
+
+
+def test_chunks_of_a_table_stay_apart() -> None:
+    chunks = [batch(mesh=[CROSSING, None]), batch(mesh=[]), batch(mesh=[APART])]
+    found = pliant.arrow.check(arro3.Table.from_batches(chunks), keep="mesh")
+    assert found.column("line").to_pylist() == [1, 2, 3] and found.column("pairs").to_pylist() == [1, None, 0]
+    assert found.column("mesh").to_pylist() == [CROSSING, None, APART]
+
+
+def test_remarks_are_no_errors_whatever_filters_there_are() -> None:
+    far = b"v 1e6 0 0\nv 2e6 0 0\nv 1e6 1e6 0\nf 1 2 3\n"
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        (row,) = rows(pliant.arrow.check(batch(a=[APART], b=[far]), ["a", "b"]))
+        with pytest.raises(UserWarning):
+            pliant.check("a.obj", "b.obj", files={"a.obj": APART, "b.obj": far}).counts()
+    assert row["error"] is None and row["pairs"] == 0
 
 
 def as_rows(files: list[bytes]) -> list[dict[str, Any]]:

@@ -172,6 +172,15 @@ def frames_are_stopped(frames: pliant.Check) -> None:
     is_stopped(lambda: next(frames), lambda: is_in_use(lambda: frames.places))
 
 
+def test_counts_that_are_stopped_leave_lists_as_they_were(tmp_path: Path) -> None:
+    faces, positions = coplanar(3000)
+    np.savez(tmp_path / "many.npz", vertices=positions, faces=faces)
+    check = pliant.check(tmp_path / "many.npz", weld=False)
+    is_stopped_by(stop, Stop, check.counts, lambda: is_in_use(lambda: check.places))
+    (frame,) = check
+    assert frame.count == len(frame.pairs) == 3000 * 2999 // 2
+
+
 def test_check_while_files_are_read(tmp_path: Path) -> None:
     """Frames in which nothing is found for long: Python looks for signals between them."""
     faces, positions = layers(2000, 0.0)

@@ -533,7 +533,7 @@ def check(
     frames: range | None = None,
     clip: str | None = None,
     fps: float = 30.0,
-    files: Mapping[str | PathLike[str], bytes | bytearray] | None = None,
+    files: Mapping[str, bytes | bytearray] | None = None,
     max_memory: int | None = None,
     warn: bool = True,
     threads: int | Literal["all"] = 1,

@@ -2,7 +2,7 @@
 
     rows = pliant.arrow.check(batch, "mesh")        # a column of bytes: files
 
-Batches of any library are read through the Arrow C data interface, without a copy. It needs
+Batches of any library are read through the Arrow C data interface, where they lie. It needs
 pip install 'pliant[arrow]', which has no pyarrow.
 
 The function depends on nothing but its arguments and can be pickled, so that Ray Data, Spark, Dask,
@@ -16,14 +16,13 @@ import inspect
 import io
 import re
 import time
-import warnings
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 try:
-    from arro3.core import Array, DataType, RecordBatch, Table, list_array, list_flatten, list_offsets
+    from arro3.core import Array, DataType, RecordBatch, Schema, Table, list_array, list_flatten, list_offsets
 except ModuleNotFoundError:
     raise ModuleNotFoundError("pliant.arrow needs arro3-core: pip install 'pliant[arrow]'", name="arro3") from None
 
@@ -31,9 +30,6 @@ from ._pliant import check as _check_files
 from ._types import Error
 
 __all__ = ["check"]
-
-# Remarks about seams, of files that nobody looks at one by one.
-warnings.filterwarnings("ignore", category=UserWarning, module=r"pliant\.arrow")
 
 # Columns of the answer, in order.
 _TYPES = {
@@ -54,10 +50,15 @@ _TYPES = {
 }
 
 # Keywords of pliant.check that say what else is found, which a row has no column for, or where files are.
-_NOT_ROWS = {"paths", "swept", "places", "crossing_edges", "files", "threads"}
+_NOT_ROWS = {"paths", "swept", "places", "crossing_edges", "files", "labels", "threads", "warn"}
+# Keywords that are a number of a frame here: a file would be one of the worker's disk.
+_FRAMES = ("baseline", "rest")
 
-# The first word of OBJ files, which have no other mark.
-_OBJ = re.compile(rb"\s*(#|(v|vt|vn|vp|f|l|p|o|g|s|mtllib|usemtl)\s)")
+# A byte that no text has: what has none, and no other mark, is OBJ.
+_NO_TEXT = re.compile(rb"[\0-\x08\x0e-\x1f]")
+
+# A mesh without a fault, on which options are tried.
+_TRIANGLE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
 
 class _File(NamedTuple):
@@ -73,7 +74,7 @@ def check(
     *,
     faces: str | Sequence[str] | None = None,
     format: str | None = None,
-    keep: Sequence[str] = (),
+    keep: str | Sequence[str] = (),
     **options: Any,
 ) -> Any:
     """Checks the meshes of each row of a record batch, as the program's `check --files-from` does.
@@ -88,13 +89,15 @@ def check(
     - mesh: columns of files, one for each body, of any format that pliant.check reads from one
       file but USD
     - faces: if given, mesh names columns of vertices, lists of three numbers, and faces as many
-      columns of triangles, lists of three corners. Both may also be flat lists
+      columns of triangles, lists of three corners. Both may also be flat lists. Lists may be of any
+      size, large or not; views of lists are errors
     - format: the ending of all files, "obj"; None finds it in their first bytes
     - keep: columns of the batch that the answer begins with
-    - options: keywords of pliant.check. A limit for each row is max_memory
+    - options: keywords of pliant.check, but for files on disk and what a row has no column for.
+      max_memory is the limit of a frame, and of a list of pairs
 
-    Returns a record batch with a row for each row, in order. It is pyarrow's, or its Table, where
-    batch is; else arro3's, which has __arrow_c_array__. Columns are those of the program:
+    Returns a row for each row, in order: a record batch for what has __arrow_c_array__, else a
+    table. It is pyarrow's where batch is; else arro3's. Columns are those of the program:
 
     - line: the row of the batch, from 1
     - bodies: names of the bodies, the column and the ending
@@ -105,25 +108,54 @@ def check(
     - ms: how long the row took; peak_bytes: null, as the memory of a worker is the engine's
     - error: why there is no answer, else null
 
-    Raises pliant.Error BadOption for a column that is not there, TypeError for a keyword that
-    pliant.check has not. Cost: of pliant.check, row by row on one
-    thread; lists of numbers are copied once.
+    Raises pliant.Error BadOption for a column that is not there, or would be there twice; TypeError
+    for a keyword that pliant.check has not, or of another type. An exception that a signal handler
+    raises ends a row, except KeyboardInterrupt and SystemExit, which end the call. No time ends one.
+
+    Cost: of pliant.check, row by row on one thread; besides, a row is copied.
     """
-    bodies = [mesh] if isinstance(mesh, str) else list(mesh)
-    of_faces = [faces] if isinstance(faces, str) else faces
+    bodies, kept = _names(mesh), _names(keep)
+    of_faces = None if faces is None else _names(faces)
     _refuse(options)
-    record = _record(batch)
-    _look_for([*bodies, *(of_faces or ()), *keep], record.column_names)
+    if not hasattr(batch, "__arrow_c_array__") and not hasattr(batch, "__arrow_c_stream__"):
+        raise TypeError(f"batch is {type(batch).__name__}; it must have __arrow_c_array__ or __arrow_c_stream__")
+    is_one = hasattr(batch, "__arrow_c_array__")
+    # Chunks stay apart: together they may be too large for one.
+    table = None if is_one else Table.from_arrow(batch)
+    batches = [RecordBatch.from_arrow(batch)] if table is None else table.to_batches()
+    schema = batches[0].schema if table is None else table.schema
+    if len({*kept, *_TYPES}) < len(kept) + len(_TYPES):
+        raise Error("keep names a column twice, or one that the answer has; rename it in the batch before", "BadOption")
+    _look_for([*bodies, *(of_faces or ()), *kept], schema.names)
     if of_faces is not None and len(of_faces) != len(bodies):
         raise Error(f"{len(bodies)} columns of vertices and {len(of_faces)} of faces; give as many", "BadOption")
     if of_faces is not None and format is not None:
         raise Error("lists of numbers have no format; leave out format or faces", "BadOption")
     if not bodies or len(set(bodies)) < len(bodies):
         raise Error("mesh names no column, or one twice; name the column of each body once", "BadOption")
+    answers, line = [], 1
+    for record in batches:
+        answers.append(_rows(record, line, bodies, of_faces, format, kept, options))
+        line += record.num_rows
+    if is_one:
+        return _as_given(batch, answers[0])
+    own = _answer([], {name: [] for name in _TYPES}).schema
+    fields = [schema.field(name) for name in kept] + [own.field(name) for name in _TYPES]
+    return _as_given(batch, Table.from_batches(answers, schema=Schema(fields)))
+
+
+def _names(names: str | Sequence[str]) -> list[str]:
+    return [names] if isinstance(names, str) else list(names)
+
+
+def _rows(
+    record: Any, line: int, bodies: list[str], of_faces: list[str] | None, format: str | None, keep: list[str], options: dict[str, Any]
+) -> Any:
+    """The rows of a record batch, whose first has this number."""
     rows: dict[str, list[Any]] = {name: [] for name in _TYPES}
     for number in range(record.num_rows):
         begun = time.perf_counter()
-        row: dict[str, Any] = {"line": number + 1, "bodies": bodies}
+        row: dict[str, Any] = {"line": line + number, "bodies": bodies}
         try:
             if of_faces is None:
                 files = [_file(record.column(name), number, name, format) for name in bodies]
@@ -131,14 +163,20 @@ def check(
             else:
                 files, hashed = _arrays(record, number, bodies, of_faces)
             _count(row, files, hashed, options)
-        except Exception as error:  # whatever it is, the other rows have answers
-            row["error"] = str(error) or type(error).__name__
+        except (KeyboardInterrupt, SystemExit, GeneratorExit):
+            raise
+        except BaseException as error:  # whatever it is, a panic of a library too: the other rows have answers
+            row["error"] = " ".join(str(error).split()) or type(error).__name__
         row["ms"] = (time.perf_counter() - begun) * 1e3
         for name, column in rows.items():
             column.append(row.get(name))
-    columns = [record.column(name) for name in keep]
-    columns += [_column(values, _TYPES[name]) for name, values in rows.items()]
-    return _as_given(batch, RecordBatch.from_arrays(columns, names=[*keep, *_TYPES]))
+    return _answer([(name, record.column(name)) for name in keep], rows)
+
+
+def _answer(kept: list[tuple[str, Any]], rows: dict[str, list[Any]]) -> Any:
+    """The record batch of these rows, behind the columns that are kept."""
+    columns = [*kept, *((name, _column(values, _TYPES[name])) for name, values in rows.items())]
+    return RecordBatch.from_arrays([column for _, column in columns], names=[name for name, _ in columns])
 
 
 def _count(row: dict[str, Any], files: list[_File], hashed: list[bytes], options: dict[str, Any]) -> None:
@@ -154,25 +192,13 @@ def _count(row: dict[str, Any], files: list[_File], hashed: list[bytes], options
         files=dict(files),
         crossing_edges=not options.get("first") and options.get("within") is None,
         places=bool(options.get("crossing")) and not options.get("first"),
+        warn=False,
         **options,
     )
     triangles = sum(body.triangles for body in found.bodies)
     counts = found.counts()
     row["triangles"] = triangles
     row.update((name, count) for name, count in counts._asdict().items() if name in _TYPES)
-
-
-def _record(batch: Any) -> Any:
-    """The batch as arro3's record batch; the chunks of a table become one."""
-    if hasattr(batch, "__arrow_c_array__"):
-        return RecordBatch.from_arrow(batch)
-    if not hasattr(batch, "__arrow_c_stream__"):
-        raise TypeError(f"batch is {type(batch).__name__}; it must have __arrow_c_array__ or __arrow_c_stream__")
-    table = Table.from_arrow(batch).combine_chunks()
-    chunks = table.to_batches()
-    if chunks:
-        return chunks[0]
-    return RecordBatch.from_arrays([table.column(name).combine_chunks() for name in table.column_names], schema=table.schema)
 
 
 def _as_given(batch: Any, rows: Any) -> Any:
@@ -188,6 +214,13 @@ def _refuse(options: dict[str, Any]) -> None:
     known = set(inspect.signature(_check_files).parameters) - _NOT_ROWS
     for name in options.keys() - known:
         raise TypeError(f"check() has no option {name!r} for rows; there are {', '.join(sorted(known))}")
+    for name in _FRAMES:
+        if not isinstance(options.get(name), int | None):
+            raise TypeError(f"{name} is {options[name]!r}; for rows it is the number of a frame")
+    try:
+        _check_files("triangle.obj", files={"triangle.obj": _TRIANGLE}, warn=False, **options)
+    except Error:
+        pass  # about this mesh, or about each
 
 
 def _look_for(names: list[str], there: list[str]) -> None:
@@ -204,7 +237,7 @@ def _file(column: Any, number: int, name: str, format: str | None) -> _File:
     if data is None:
         raise ValueError(f"{name} is null; a row needs a mesh in each column")
     if not isinstance(data, bytes):
-        raise TypeError(f"{name} is a {column.type}; give a column of bytes, or lists of numbers with faces=")
+        raise TypeError(f"{name} is a {_called(column)}; give a column of bytes, or lists of numbers with faces=")
     return _File(f"{name}.{format or _ending(data, name)}", data)
 
 
@@ -218,13 +251,14 @@ def _ending(data: bytes, name: str) -> str:
         return "npz"
     if len(data) >= 84 and len(data) == 84 + 50 * int.from_bytes(data[80:84], "little"):
         return "stl"
-    if data.startswith(b"solid"):
+    start = data[:1000].removeprefix(b"\xef\xbb\xbf").lstrip()
+    if start[:5].lower() == b"solid":
         return "stl"
-    if data.lstrip().startswith(b"{"):
+    if start.startswith(b"{"):
         return "gltf"
-    if _OBJ.match(data):
+    if start and not _NO_TEXT.search(start):
         return "obj"
-    raise ValueError(f"the first bytes of {name} are of no format that is known by them; give format=")
+    raise ValueError(f"the first bytes of {name} are of no format that is known by them; give format=" if data else f"{name} is empty")
 
 
 def _arrays(record: Any, number: int, bodies: list[str], of_faces: Sequence[str]) -> tuple[list[_File], list[bytes]]:
@@ -250,8 +284,10 @@ def _threes(column: Any, number: int, name: str) -> np.ndarray[Any, Any]:
     if cell.null_count:
         raise ValueError(f"{name} is null; a row needs a mesh in each column")
     if not (cell.type.is_nested(cell.type) and cell.type.value_type):
-        raise TypeError(f"{name} is a {cell.type}; give a column of lists of numbers")
+        raise TypeError(f"{name} is a {_called(cell)}; give a column of lists of numbers")
     values = list_flatten(cell)
+    if values.null_count:
+        raise ValueError(f"{name} has entries that are null")
     if values.type.value_type is not None:
         size = values.type.list_size
         sizes = [size] if size is not None else np.diff(list_offsets(values).to_numpy())
@@ -261,10 +297,17 @@ def _threes(column: Any, number: int, name: str) -> np.ndarray[Any, Any]:
     if values.null_count:
         raise ValueError(f"{name} has numbers that are null")
     values = values.to_numpy()
+    if values.dtype.kind not in "fiu":
+        raise TypeError(f"{name} has {values.dtype}; give numbers")
     if len(values) % 3:
         raise ValueError(f"{name} has {len(values)} numbers; they must be three by three")
     rows: np.ndarray[Any, Any] = values.reshape(-1, 3)
     return rows
+
+
+def _called(column: Any) -> str:
+    """The type of a column, as messages name it."""
+    return str(column.type).strip().removeprefix("arro3.core.DataType")
 
 
 def _column(values: list[Any], kind: str) -> Any:

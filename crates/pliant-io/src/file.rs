@@ -1,10 +1,10 @@
 //! Detection of files that change while they are read.
 //!
-//! A file may still be written, or be replaced before its turn. So a file's identity, length and modification time are recorded when it is found
-//! ([`Found`]). They are compared when it is opened and after every frame. A change in place, of
-//! equal length and within one tick of the file system's clock, goes unseen; NPZ files also have
-//! checksums. Opening never waits: a pipe that has replaced a file is refused like any other
-//! change.
+//! A file may still be written, or be replaced before its turn. So a file's identity, length and
+//! modification time are recorded when it is found ([`Found`]). They are compared when it is opened
+//! and after every frame. A change in place, of equal length and within one tick of the file
+//! system's clock, goes unseen; NPZ files also have checksums. Opening never waits: a pipe that has
+//! replaced a file is refused like any other change.
 
 use std::fmt;
 use std::fs::{File, Metadata};

@@ -1,8 +1,8 @@
 //! Files that arguments name: the system's, or some in memory.
 //!
 //! Names, folders and patterns mean the same in both. In memory `/` parts folders, and one exists
-//! where a file is in it. A `/` before all is passed over, and `..` goes back a folder. There are no
-//! links, pipes or changes.
+//! where a file is in it. A `/` before all is passed over, and `..` goes back a folder. There are
+//! no links, pipes or changes.
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -215,7 +215,7 @@ mod tests {
     fn names_in_memory_are_like_names_on_disk() {
         let names = ["b/c.obj", "./b.obj", "/b/d/e.obj", "b-1.obj"];
         let files = Files::in_memory(names.map(|name| (name, name.as_bytes().to_vec()))).unwrap();
-        // On disk the same, but for the folder in which all are.
+        // On disk the same, in one folder.
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir_all(folder.path().join("b/d")).unwrap();
         for name in names {

@@ -17,6 +17,7 @@ import io
 import re
 import time
 from collections.abc import Sequence
+from importlib import import_module
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -205,8 +206,7 @@ def _as_given(batch: Any, rows: Any) -> Any:
     """Rows as a record batch or table of pyarrow, where the batch is one."""
     if type(batch).__module__.partition(".")[0] != "pyarrow":
         return rows
-    import pyarrow  # type: ignore[import-untyped,unused-ignore]
-
+    pyarrow = import_module("pyarrow")
     return pyarrow.table(rows) if isinstance(batch, pyarrow.Table) else pyarrow.record_batch(rows)
 
 

@@ -1,25 +1,23 @@
 // How long the page takes from a file's being dropped to its answer: `node benchmarks/time_page.js`, after .ci/page.
 //
 // The file is the scene cloth, 79,202 triangles, at its last step, as the example write_obj writes it (`cargo build --release
-// -p pliant-scenes --example write_obj`). Five pages are opened anew; the median counts. Needs Chromium, as web/test.js does.
+// -p pliant-scenes --example write_obj`). Five pages are opened anew; the median counts. Needs Chromium, see web/browser.js.
 
 import { spawnSync } from 'node:child_process';
-import { existsSync, mkdtempSync, rmSync } from 'node:fs';
-import { createRequire } from 'node:module';
+import { mkdtempSync, rmSync } from 'node:fs';
 import { cpus, tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
+import { launch } from '../web/browser.js';
 
 const root = fileURLToPath(new URL('..', import.meta.url));
-const { chromium } = createRequire(join(root, 'web/package.json'))('playwright-core');
 const page = pathToFileURL(join(root, 'target/page/check.html')).href;
 const writer = process.env.WRITE_OBJ ?? join(root, 'target/release/examples/write_obj');
-const executablePath = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/google-chrome'].find((path) => path && existsSync(path));
 const folder = mkdtempSync(join(tmpdir(), 'pliant-time-page-'));
 try {
   const written = spawnSync(writer, ['cloth', '79202', '50', folder], { encoding: 'utf8' });
   if (written.status !== 0) throw new Error(`${writer}: ${written.stderr ?? written.error}`);
-  const browser = await chromium.launch({ executablePath, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
+  const browser = await launch();
   const times = [];
   for (let round = 0; round < 5; round += 1) {
     const tab = await browser.newPage({ offline: true });

@@ -1,34 +1,31 @@
 // The page that checks, in a real browser, headless: .ci/page builds it and runs this.
 //
-// Needs Chromium, as test.js does; without one, or without the page, nothing is tested, and it says so. What is found is compared
+// Needs Chromium, see browser.js; without one, or without the page, nothing is tested, and it says so. What is found is compared
 // with the program of this machine, $PLIANT. Screenshots go to target/screenshots.
 
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { createWriteStream, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
-import { chromium } from 'playwright-core';
+import { launch, serious, skip as noBrowser } from './browser.js';
 
 const root = fileURLToPath(new URL('..', import.meta.url));
 const address = pathToFileURL(process.env.PLIANT_PAGE ?? join(root, 'target/page/check.html')).href;
 const program = process.env.PLIANT ?? join(root, 'target/release/pliant');
-const browserPath = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((path) => path && existsSync(path));
-const skip = !browserPath ? 'there is no Chromium; set CHROMIUM, or install one' : !existsSync(fileURLToPath(address)) ? 'the page is not built: .ci/page' : !existsSync(program) ? `there is no ${program}` : false;
+const skip = noBrowser || (!existsSync(fileURLToPath(address)) ? 'the page is not built: .ci/page' : !existsSync(program) ? `there is no ${program}` : false);
 const data = (name) => join(root, '../shared/data', name);
 const without = (...names) => skip || (names.every((name) => existsSync(data(name))) ? false : `no ${names.join(', ')}`);
 const shots = join(root, 'target/screenshots');
 const folder = mkdtempSync(join(tmpdir(), 'pliant-page-'));
-const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 let browser;
 
 before(async () => {
   if (skip) return;
   mkdirSync(shots, { recursive: true });
-  browser = await chromium.launch({ executablePath: browserPath, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run', '--disable-background-networking'] });
+  browser = await launch();
 });
 
 after(async () => {
@@ -292,10 +289,7 @@ for (const [name, options] of [['light', {}], ['dark', { colorScheme: 'dark' }],
     await it.page.screenshot({ path: join(shots, `page-${name}.png`), fullPage: true });
     const [width, inner] = await it.page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
     assert.ok(width <= inner, `${width} wide in ${inner}`);
-    await it.page.evaluate(axe);
-    const { violations } = await it.page.evaluate(() => window.axe.run(document, { iframes: false }));
-    const serious = violations.filter(({ impact }) => impact === 'serious' || impact === 'critical');
-    assert.deepEqual(serious.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`), []);
+    assert.deepEqual(await serious(it.page), []);
     await it.close();
   });
 }

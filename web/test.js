@@ -1,7 +1,6 @@
 // The page in a real browser, headless: `npm ci && npm test`, after `cargo build --release`.
 //
-// Needs Chromium (Debian: apt-get install chromium), found as $CHROMIUM or under its usual names; without one nothing is
-// tested, and it says so. $PLIANT is the program, target/release/pliant if it is not set. Screenshots go to target/screenshots.
+// Needs Chromium, see browser.js; without one nothing is tested, and it says so. $PLIANT is the program, target/release/pliant if it is not set. Screenshots go to target/screenshots.
 
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
@@ -10,13 +9,11 @@ import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
-import { chromium } from 'playwright-core';
+import { launch, skip } from './browser.js';
 import { SOLIDS, writeSolids } from './test-solids.js';
 
 const root = fileURLToPath(new URL('..', import.meta.url));
 const program = process.env.PLIANT ?? join(root, 'target/release/pliant');
-const browserPath = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((path) => path && existsSync(path));
-const skip = browserPath ? false : 'there is no Chromium; set CHROMIUM, or install one';
 const morph = join(root, '../shared/data/human-morph.npz');
 const shots = join(root, 'target/screenshots');
 const folder = mkdtempSync(join(tmpdir(), 'pliant-report-'));
@@ -25,11 +22,7 @@ let browser;
 before(async () => {
   if (skip) return;
   mkdirSync(shots, { recursive: true });
-  browser = await chromium.launch({
-    executablePath: browserPath,
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run',
-      '--disable-background-networking', '--disable-component-update', '--disable-sync'],
-  });
+  browser = await launch();
 });
 
 after(async () => {

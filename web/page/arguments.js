@@ -119,7 +119,7 @@ export function flags(choices) {
   value('baseline', baseline);
   value('frames', frames);
   value('clip', clip);
-  flag(memory !== '4GiB', `--max-memory=${memory}`);
+  value('max-memory', memory);
   return words;
 }
 

@@ -2,11 +2,13 @@
 
 import { element, counted } from '../src/dom.js';
 import { DEFAULTS, bodies, flags, line, series } from './arguments.js';
+import { Said } from './said.js';
 
 const at = (id) => document.getElementById(id);
 const [form, list, answer, frame] = ['form', 'list', 'answer', 'report'].map(at);
-/** Files by name, as they were dropped; and what is to be said of that. */
+/** Files by name, as they were dropped. */
 const files = new Map();
+/** Names that were dropped a second time, to be said once. */
 let replaced = [];
 /** The check that runs: its worker, and its answer so far. */
 let running = null;
@@ -91,10 +93,9 @@ function offer(id, parts, type) {
 }
 
 /** What the check says, in a sentence: what was asked, of how much, and what was found. */
-function verdict(code, mine) {
-  const { within, swept } = mine.choices;
-  const of = `${counted(mine.bodies, 'body', 'bodies')}, ${counted(mine.checked(), 'frame')}`;
-  const inside = mine.inside ? [['Something lies inside a closed body, which is no intersection: Save as JSON says what.', 'found']] : [];
+function verdict(code, { within, swept }, said) {
+  const of = `${counted(said.bodies, 'body', 'bodies')}, ${counted(said.frames, 'frame')}`;
+  const inside = said.inside ? [['Something lies inside a closed body, which is no intersection: Save as JSON says what.', 'found']] : [];
   if (code === 1) return [[`Something is found in ${of}; the report says what and where.`, 'found'], ...inside];
   const nothing = within.trim() ? `Nothing is within ${within.trim()} of each other` : swept ? 'Nothing intersects, nor meets on the way' : 'Nothing intersects';
   return [[`${nothing}: ${of}.`, 'clear'], ...inside];
@@ -108,36 +109,25 @@ async function check() {
   at('cancel').hidden = false;
   const progress = element('p', { className: 'progress' }, 'Reading');
   answer.append(progress);
-  const mine = { worker: new Worker(worker), output: [], lines: 0, text: '', bodies: 0, inside: false, choices: choices(), files: [...files.values()], began: performance.now() };
-  // A line ends with each frame; with ways, every other is the way from the frame before. The first line says which bodies there are.
-  mine.checked = () => { const frames = Math.max(0, mine.lines - 1); return mine.choices.swept ? Math.ceil(frames / 2) : frames; };
-  const decoder = new TextDecoder();
+  // What is chosen and dropped now, whatever happens to the page meanwhile.
+  const mine = { worker: new Worker(worker), choices: choices(), files: [...files.values()], notes: [], began: performance.now() };
+  const said = new Said();
   running = mine;
-  const end = (...said) => {
+  const end = (...sentences) => {
     mine.worker.terminate();
     if (running !== mine) return;
     running = null;
     progress.remove();
     at('cancel').hidden = true;
-    say(...said);
+    say(...sentences);
     document.body.dataset.state = 'done';
   };
   document.body.dataset.state = 'running';
-  mine.notes = [];
   mine.worker.onerror = (event) => end([`The program could not be run: ${event.message ?? 'the worker has ended'}`, 'error']);
   mine.worker.onmessage = ({ data }) => {
     if (data.output) {
-      mine.output.push(data.output);
-      mine.text += decoder.decode(data.output, { stream: true });
-      const lines = mine.text.split('\n');
-      mine.text = lines.pop();
-      for (const it of lines) {
-        if (mine.lines === 0) mine.bodies = JSON.parse(`${it}]}`).bodies.length;
-        mine.lines += /^\]/.test(it) ? 0 : 1;
-        mine.inside ||= it.includes('"inside":[[');
-      }
-      const checked = mine.checked();
-      progress.textContent = checked > 0 ? `${counted(checked, 'frame')} checked` : 'Checking';
+      said.take(data.output);
+      progress.textContent = said.frames > 0 ? `${counted(said.frames, 'frame')} checked` : 'Checking';
     } else if (data.note !== undefined) {
       mine.notes.push(data.note);
     } else if (data.unreadable !== undefined) {
@@ -148,13 +138,13 @@ async function check() {
         : `The program has stopped, which is a bug of it or of this browser: ${data.broken}`, 'error'], ...mine.notes.map((note) => [note, 'note']));
     } else {
       const kind = data.code === 2 ? 'error' : 'note';
-      const said = data.code === 2 ? [['The check could not be done.', 'error']] : verdict(data.code, mine);
+      const sentences = data.code === 2 ? [['The check could not be done.', 'error']] : verdict(data.code, mine.choices, said);
       const old = replaced.map((name) => [`${name} was there before; the new one took its place.`, 'note']);
       replaced = [];
-      end(...said, ...mine.notes.map((note) => [note, kind]), ...old);
+      end(...sentences, ...mine.notes.map((note) => [note, kind]), ...old);
       document.body.dataset.code = data.code;
       document.body.dataset.ms = Math.round(performance.now() - mine.began);
-      if (mine.output.length > 0) offer('save-json', mine.output, 'application/json');
+      if (said.pieces.length > 0) offer('save-json', said.pieces, 'application/json');
       if (data.report) {
         frame.src = offer('save-report', [data.report], 'text/html');
         frame.hidden = false;

@@ -71,5 +71,5 @@ onmessage = ({ data: { module, words, files } }) => {
     return;
   }
   const report = folder.dir.contents.get(REPORT)?.data;
-  postMessage({ code, report, bytes: instance.exports.memory.buffer.byteLength }, report ? [report.buffer] : []);
+  postMessage({ code, report }, report ? [report.buffer] : []);
 };

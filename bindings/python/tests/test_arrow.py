@@ -304,6 +304,15 @@ def test_batches_of_pyarrow_come_back_as_its_own() -> None:
         assert "null" in found["error"][0].as_py()
 
 
+@pytest.mark.parametrize("library", ["polars", "nanoarrow", "pandas"])
+def test_batches_of_other_libraries_are_read(library: str) -> None:
+    other = pytest.importorskip(library)
+    if library == "pandas":
+        pytest.importorskip("pyarrow")
+    made = other.c_array(batch(mesh=[CROSSING, APART])) if library == "nanoarrow" else other.DataFrame({"mesh": [CROSSING, APART]})
+    assert pliant.arrow.check(made).column("pairs").to_pylist() == [1, 0]
+
+
 GUARD = Path(__file__).parents[3] / "docs" / "guard-your-assets.md"
 
 

@@ -199,7 +199,7 @@ fn plain(path: &Path) -> PathBuf {
 }
 
 /// The folder, where the empty path is the current one.
-fn or_here(folder: &Path) -> &Path {
+pub(crate) fn or_here(folder: &Path) -> &Path {
     if folder.as_os_str().is_empty() {
         Path::new(".")
     } else {

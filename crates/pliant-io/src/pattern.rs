@@ -9,7 +9,7 @@ use std::path::{Component, Path, PathBuf};
 use glob::{MatchOptions, Pattern};
 
 use crate::error::{Error, Reason};
-use crate::files::{Files, Kind};
+use crate::files::{Files, Kind, or_here};
 
 const AS_IN_SHELLS: MatchOptions = MatchOptions {
     case_sensitive: true,
@@ -106,12 +106,7 @@ fn walk(
 /// Names in a folder; the empty path is the current folder.
 fn names(files: &Files, folder: &Path) -> Result<Vec<std::ffi::OsString>, Error> {
     let names = files.names(folder);
-    let here = if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
-    };
-    names.map_err(|error| Error::new(here, Reason::Io(error)))
+    names.map_err(|error| Error::new(or_here(folder), Reason::Io(error)))
 }
 
 #[cfg(test)]

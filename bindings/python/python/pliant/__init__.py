@@ -185,7 +185,7 @@ __all__ = [
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> object:
-        # It needs another package. Workers that unpickle a function ask for it so.
+        # arrow needs another package, so it is imported when it is asked for. Workers of engines ask for it so.
         if name == "arrow":
             return import_module("pliant.arrow")
         raise AttributeError(f"module 'pliant' has no attribute {name!r}")

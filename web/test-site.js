@@ -1,32 +1,24 @@
-// The site in a real browser, headless: `npm ci && npm test`, after `site/build`.
+// The site in a real browser, headless: `npm ci && npm run site`, after `site/build`.
 //
-// Needs Chromium (Debian: apt-get install chromium), found as $CHROMIUM or under its usual names; without one nothing is
-// tested, and it says so. $CARGO_TARGET_DIR is where the site was built, target if it is not set. Screenshots go there too.
+// Needs Chromium, see browser.js; without one nothing is tested, and it says so. $CARGO_TARGET_DIR is where the site was built, target if it is not set. Screenshots go there too.
 
 import assert from 'node:assert/strict';
 import { existsSync, mkdirSync, readdirSync, readFileSync } from 'node:fs';
 import { join, relative } from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
-import { chromium } from 'playwright-core';
+import { launch, serious, skip } from './browser.js';
 
 const root = fileURLToPath(new URL('..', import.meta.url));
 const built = join(process.env.CARGO_TARGET_DIR ?? join(root, 'target'), 'site');
 const book = join(built, 'book');
 const shots = join(built, 'screenshots');
-const browserPath = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((path) => path && existsSync(path));
-const skip = browserPath ? false : 'there is no Chromium; set CHROMIUM, or install one';
-const axe = readFileSync(new URL('node_modules/axe-core/axe.min.js', import.meta.url), 'utf8');
 let browser;
 
 before(async () => {
   if (skip) return;
   mkdirSync(shots, { recursive: true });
-  browser = await chromium.launch({
-    executablePath: browserPath,
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run',
-      '--disable-background-networking', '--disable-component-update', '--disable-sync'],
-  });
+  browser = await launch();
 });
 
 after(async () => browser?.close());
@@ -49,15 +41,6 @@ async function open(name, options = {}) {
     assert.deepEqual(faults, [], name);
   };
   return { page, close };
-}
-
-/** What axe finds that is serious or critical, a line each. */
-async function serious(page) {
-  await page.evaluate(axe);
-  const { violations } = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ['violations'], preload: false }));
-  return violations
-    .filter(({ impact }) => ['serious', 'critical'].includes(impact))
-    .flatMap(({ id, nodes }) => nodes.map(({ target, failureSummary }) => `${id}: ${target.join(' ')}: ${failureSummary.split('\n').slice(1, 2).join('').trim()}`));
 }
 
 for (const [scheme, colorScheme] of [['light', 'light'], ['dark', 'dark']]) {

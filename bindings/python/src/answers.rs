@@ -53,24 +53,6 @@ impl From<Vec<[f64; 3]>> for Owned {
     }
 }
 
-/// Copies the rows that a query has listed into an array.
-///
-/// numpy allocates it, because it asks for large pages where there is much to write.
-pub(crate) fn copy_of_rows<const K: usize>(
-    py: Python<'_>,
-    rows: impl ExactSizeIterator<Item = [u32; K]>,
-) -> PyResult<Bound<'_, PyArray2<u32>>> {
-    let array = PyArray2::zeros(py, [rows.len(), K], false);
-    {
-        let mut writable = array.try_readwrite()?;
-        let (places, _) = writable.as_slice_mut()?.as_chunks_mut();
-        for (place, row) in places.iter_mut().zip(rows) {
-            *place = row;
-        }
-    }
-    Ok(array)
-}
-
 /// A count with its noun, in the singular or the plural.
 pub(crate) fn counted(count: usize, [one, many]: [&str; 2]) -> String {
     format!("{count} {}", if count == 1 { one } else { many })

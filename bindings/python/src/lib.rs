@@ -7,6 +7,7 @@
 //! | `error.rs` | refusals as `pliant.Error`, and what to do about them in words of Python |
 //! | `signals.rs` | Ctrl-C while a query computes |
 //! | `answers.rs` | answers: arrays made of vectors, named tuples |
+//! | `columns.rs` | columns of hits, which several threads fill |
 //! | `options.rs` | the keyword arguments of a world |
 //! | `copies.rs` | private copies of arrays, so that what is checked is what is kept |
 //! | `arrays.rs` | numpy arrays of callers |
@@ -39,6 +40,7 @@ mod answers;
 mod arrays;
 mod changes;
 mod check;
+mod columns;
 mod copies;
 mod curves;
 mod edit;

@@ -1,6 +1,7 @@
 //! A world whose precision the first body fixes: float32 or float64.
 
 use crate::arrays::{Coordinates, CopiedCoordinates};
+use crate::columns::{By, Kept};
 use crate::copies::Room;
 use crate::error::{Refused, Result, alone, alone_with, refused};
 use pliant::{BodyId, Error, ErrorKind, Options};
@@ -51,6 +52,8 @@ pub(crate) struct State {
     narrow: Room<f32>,
     /// Buffer for copies of float64 shapes.
     wide: Room<f64>,
+    /// Hits in job order.
+    kept: Kept,
 }
 
 impl State {
@@ -62,11 +65,21 @@ impl State {
             widened: Vec::new(),
             narrow: Room::default(),
             wide: Room::default(),
+            kept: Kept::default(),
         }
     }
 
     pub(crate) fn options(&self) -> &Options {
         &self.options
+    }
+
+    /// The world, and what its answers are listed with.
+    pub(crate) fn lend(&mut self) -> (&mut AnyWorld, By<'_>) {
+        let by = By {
+            threads: self.options.threads.get(),
+            kept: &mut self.kept,
+        };
+        (&mut self.world, by)
     }
 
     /// Copies the world.
@@ -80,7 +93,8 @@ impl State {
 
     /// Bytes of the buffers beside the world. The caller has the interpreter lock.
     pub(crate) fn room(&self, py: Python<'_>) -> usize {
-        self.widened.capacity() * size_of::<[f64; 3]>() + self.narrow.held(py) + self.wide.held(py)
+        let widened = self.widened.capacity() * size_of::<[f64; 3]>();
+        widened + self.narrow.held(py) + self.wide.held(py) + self.kept.bytes()
     }
 
     /// The precision, once it is fixed.

@@ -1398,8 +1398,8 @@ impl World {
 
     /// Bytes of memory that this world holds: bodies, trees, boxes, lists kept for queries.
     ///
-    /// Reserved memory counts, and so does the copy that set_positions keeps. Arrays that were
-    /// handed out, threads and a query under way do not.
+    /// Reserved memory counts, and so do the copy that set_positions keeps and the hits that
+    /// all(sort=False) keeps. Arrays that were handed out, threads and a query under way do not.
     fn memory_usage(&self, py: Python<'_>) -> Result<usize> {
         let room = self.state.alone()?.room(py);
         ask!(self, py, world => world.memory_usage() + room)

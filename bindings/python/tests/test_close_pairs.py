@@ -12,6 +12,7 @@ import pliant
 import pytest
 from pliant import Selection
 
+from conftest import fold, grid
 from test_candidates import sheet
 
 
@@ -275,6 +276,10 @@ def test_thickness_counts_for_close_pairs_and_candidates() -> None:
     assert (refused.value.body, refused.value.vertex, refused.value.thickness) == (low, 0, -1)
 
 
+def as_rows(hits: Any) -> Any:
+    return hits if isinstance(hits, np.ndarray) else hits.pairs
+
+
 def test_lists_come_in_job_order_and_in_rows() -> None:
     world, _, _ = bodies(np.float32)
     asked: list[tuple[Any, Callable[[int], int]]] = [
@@ -283,9 +288,6 @@ def test_lists_come_in_job_order_and_in_rows() -> None:
         (world.close_edge_edge_pairs(Selection.EVERYTHING, 0.5), lambda body: len(world.edges(body))),
         (world.close_triangle_pairs(Selection.EVERYTHING, 0.5), world.triangle_count),
     ]
-
-    def as_rows(hits: Any) -> Any:
-        return hits if isinstance(hits, np.ndarray) else hits.pairs
 
     for query, count in asked:
         hits = as_rows(query.all(sort=False))
@@ -299,3 +301,30 @@ def test_lists_come_in_job_order_and_in_rows() -> None:
             for element in range(count(body)):
                 own = np.flatnonzero((hits[:, 0] == body) & (hits[:, 1] == element))
                 assert rows.row(body, element).tolist() == own.tolist()
+
+
+def test_long_lists_are_the_same_on_several_threads() -> None:
+    """Beyond 131,072 hits several threads fill the arrays."""
+    faces, flat = grid(50)
+    listed: list[list[Any]] = []
+    for threads in (1, 3):
+        world = pliant.World(threads=threads)
+        world.add(faces, fold(flat, 0.3))
+        before = world.memory_usage()
+        close = world.close_edge_edge_pairs(Selection.EVERYTHING, 0.1)
+        candidates = world.edge_edge_candidates(Selection.EVERYTHING, 0.05)
+        listed.append([])
+        for query in (close, candidates):
+            in_order = query.all()
+            sorted_numbers = as_rows(in_order)
+            assert len(sorted_numbers) > 200_000
+            hits = as_rows(query.all(sort=False))
+            order = np.lexsort(hits.T[::-1])
+            assert not (hits == sorted_numbers).all() and (hits[order] == sorted_numbers).all()
+            assert (as_rows(query.rows().hits) == hits).all()
+            listed[-1] += [in_order, hits]
+        # The list of hits is kept, so that the next has its memory.
+        assert world.memory_usage() - before > 2 * 16 * len(sorted_numbers)
+    for one, many in zip(*listed, strict=True):
+        pairs = zip(one, many, strict=True) if isinstance(one, tuple) else [(one, many)]
+        assert all((a == b).all() for a, b in pairs)

@@ -1,6 +1,7 @@
 //! `CloseQuery`: which elements are close, with numbers in arrays side by side.
 
-use crate::answers::{Any, Column, Rows, class};
+use crate::answers::{Any, class};
+use crate::columns::Columns;
 use crate::error::Result;
 use crate::options::Threads;
 use crate::queries::{Hit, Kind, Want, Wanted, query_class};
@@ -50,26 +51,15 @@ fn both<const A: usize, const B: usize, const N: usize>(a: [f64; A], b: [f64; B]
 macro_rules! close {
     ($hit:ident, $count:literal, $close:ident => $barycentric:expr) => {
         impl Hit for $hit {
-            type Columns = (Vec<[u32; 4]>, Vec<f64>, Vec<[f64; 3]>, Vec<[f64; $count]>);
-
-            fn columns(hits: &[Self]) -> Self::Columns {
-                let row = |$close: &Self| {
-                    let direction = $close.direction.unwrap_or_default();
-                    (
-                        <[u32; 4]>::from($close.pair),
-                        $close.distance,
-                        direction,
-                        $barycentric,
-                    )
-                };
-                hits.iter().map(row).collect()
+            fn columns<'h, 'py>(of: Columns<'h, 'py, Self>) -> PyResult<Columns<'h, 'py, Self>> {
+                of.row(|close| <[u32; 4]>::from(close.pair))?
+                    .number(|close| close.distance)?
+                    .row(|close| close.direction.unwrap_or_default())?
+                    .row::<f64, $count>(|$close| $barycentric)
             }
 
-            fn many(columns: Self::Columns, py: Python<'_>) -> PyResult<Any<'_>> {
-                let (pairs, distance, direction, barycentric) = columns;
-                let (pairs, distance) = (Rows(pairs), Column(distance));
-                let (direction, barycentric) = (Rows(direction), Rows(barycentric));
-                class!(py, "ClosePairs").call1((pairs, distance, direction, barycentric))
+            fn many(columns: Vec<Py<PyAny>>, py: Python<'_>) -> PyResult<Any<'_>> {
+                class!(py, "ClosePairs").call1(PyTuple::new(py, columns)?)
             }
 
             fn one(self, py: Python<'_>) -> PyResult<Any<'_>> {

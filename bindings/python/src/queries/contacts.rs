@@ -2,14 +2,16 @@
 //!
 //! It also asks about triangles that share a vertex, whose hits are of the same form.
 
-use crate::answers::{Any, Column, Rows, class};
+use crate::answers::{Any, class};
 use crate::arrays::expected;
+use crate::columns::Columns;
 use crate::error::Result;
 use crate::options::Threads;
 use crate::queries::{Hit, Kind, Want, Wanted, query_class};
 use pliant::{AdjacentContact, Contact, ContactKind, Scalar};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 /// Kinds in the order of their numbers in Python.
 const KINDS: [ContactKind; 3] = [
@@ -74,15 +76,13 @@ impl Kind for Contacts {
 }
 
 impl Hit for Contact {
-    type Columns = (Vec<[u32; 4]>, Vec<u8>);
-
-    fn columns(hits: &[Self]) -> Self::Columns {
-        let row = |hit: &Self| (<[u32; 4]>::from(hit.pair), hit.kind as u8);
-        hits.iter().map(row).collect()
+    fn columns<'h, 'py>(of: Columns<'h, 'py, Self>) -> PyResult<Columns<'h, 'py, Self>> {
+        of.row(|hit| <[u32; 4]>::from(hit.pair))?
+            .number(|hit| hit.kind as u8)
     }
 
-    fn many((pairs, kinds): Self::Columns, py: Python<'_>) -> PyResult<Any<'_>> {
-        class!(py, "Contacts").call1((Rows(pairs), Column(kinds)))
+    fn many(columns: Vec<Py<PyAny>>, py: Python<'_>) -> PyResult<Any<'_>> {
+        class!(py, "Contacts").call1(PyTuple::new(py, columns)?)
     }
 
     fn one(self, py: Python<'_>) -> PyResult<Any<'_>> {
@@ -93,14 +93,12 @@ impl Hit for Contact {
 
 /// As contacts: the pair, and how it meets beyond what it shares.
 impl Hit for AdjacentContact {
-    type Columns = <Contact as Hit>::Columns;
-
-    fn columns(hits: &[Self]) -> Self::Columns {
-        let row = |hit: &Self| (<[u32; 4]>::from(hit.pair), hit.kind as u8);
-        hits.iter().map(row).collect()
+    fn columns<'h, 'py>(of: Columns<'h, 'py, Self>) -> PyResult<Columns<'h, 'py, Self>> {
+        of.row(|hit| <[u32; 4]>::from(hit.pair))?
+            .number(|hit| hit.kind as u8)
     }
 
-    fn many(columns: Self::Columns, py: Python<'_>) -> PyResult<Any<'_>> {
+    fn many(columns: Vec<Py<PyAny>>, py: Python<'_>) -> PyResult<Any<'_>> {
         Contact::many(columns, py)
     }
 

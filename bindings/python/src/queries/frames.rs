@@ -6,15 +6,15 @@
 
 use crate::answers::{Any, Column, class};
 use crate::arrays::{self, Coordinates};
+use crate::columns::By;
 use crate::error::{Refused, Result, refused};
 use crate::options::{self, Threads};
-use crate::queries::{Hit, Kind, Made, Prepare, Question, Want, Wanted};
+use crate::queries::{self, Hit, Kind, Made, Prepare, Question, Want, copied};
 use crate::selection::Body;
 use crate::signals::interruptible;
 use crate::state::{Shared, State};
 use numpy::{PyUntypedArray, PyUntypedArrayMethods};
 use pliant::BodyId;
-use pliant_check::with_world;
 use pyo3::prelude::*;
 use std::any;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -176,7 +176,7 @@ struct List {
 impl Want for List {
     type Answer = (Listed, usize);
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<(Listed, usize)> {
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: By<'_>) -> Result<(Listed, usize)> {
         let mut hits = query.all()?;
         if self.only_first {
             hits = &hits[..hits.len().min(1)];
@@ -189,10 +189,10 @@ impl Want for List {
 struct Join;
 
 impl Want for Join {
-    type Answer = fn(Vec<Listed>) -> Made;
+    type Answer = fn(Vec<Listed>, usize) -> PyResult<Made>;
 
-    fn of<H: Hit>(self, _: pliant::Query<'_, H>) -> Result<Self::Answer> {
-        Ok(|lists| {
+    fn of<H: Hit>(self, _: pliant::Query<'_, H>, _: By<'_>) -> Result<Self::Answer> {
+        Ok(|lists, threads| {
             let mut all = Vec::new();
             for list in lists {
                 let Ok(hits) = list.downcast::<Vec<H>>() else {
@@ -200,8 +200,8 @@ impl Want for Join {
                 };
                 all.extend(*hits);
             }
-            let columns = H::columns(&all);
-            Box::new(move |py| H::many(columns, py))
+            let columns = Python::attach(|py| copied(py, &all, threads))?;
+            Ok(Box::new(move |py| H::many(columns, py)))
         })
     }
 }
@@ -213,7 +213,7 @@ struct Count;
 impl Want for Count {
     type Answer = usize;
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<usize> {
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: By<'_>) -> Result<usize> {
         // Sorting costs less than handing hits over bit by bit.
         Ok(query.all()?.len())
     }
@@ -226,7 +226,7 @@ struct IsAny;
 impl Want for IsAny {
     type Answer = bool;
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<bool> {
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: By<'_>) -> Result<bool> {
         Ok(query.first()?.is_some())
     }
 }
@@ -264,7 +264,7 @@ impl<K: Kind> Question<K> {
                 });
                 let lists = lists.collect();
                 let join = self.ask(py, Join)?;
-                let hits = py.detach(|| join(lists))(py)?;
+                let hits = py.detach(|| join(lists, frames.threads))?(py)?;
                 class!(py, "FrameHits").call1((hits, Column(offsets)))?
             }
         })
@@ -278,8 +278,7 @@ impl<K: Kind> Question<K> {
     ) -> Result<Vec<W::Answer>> {
         let (kind, of) = (self.kind, self.of.0);
         each_frame(py, &self.world, frames, |state, question| {
-            let wanted = Wanted { want, question };
-            with_world!(&mut state.world, world => kind.ask(world, of, wanted))
+            queries::answer(state, question, (kind, of), want)
         })
     }
 }

@@ -1,11 +1,13 @@
 //! `ImpactQuery`: which elements meet on their way, and when first, with numbers in arrays side by
 //! side.
 
-use crate::answers::{Any, Column, Rows, class};
+use crate::answers::{Any, class};
+use crate::columns::Columns;
 use crate::error::Result;
 use crate::queries::{Hit, Kind, Want, Wanted, query_class};
 use pliant::{EdgeEdgeImpact, Scalar, VertexTriangleImpact};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 /// Kind of elements that meet, and the widest interval of times.
 #[derive(Clone, Copy)]
@@ -40,16 +42,14 @@ impl Kind for Impacts {
 macro_rules! impacts {
     ($hit:ident) => {
         impl Hit for $hit {
-            type Columns = (Vec<[u32; 4]>, Vec<f64>, Vec<f64>);
-
-            fn columns(hits: &[Self]) -> Self::Columns {
-                let row = |hit: &Self| (<[u32; 4]>::from(hit.pair), hit.low, hit.high);
-                hits.iter().map(row).collect()
+            fn columns<'h, 'py>(of: Columns<'h, 'py, Self>) -> PyResult<Columns<'h, 'py, Self>> {
+                of.row(|hit| <[u32; 4]>::from(hit.pair))?
+                    .number(|hit| hit.low)?
+                    .number(|hit| hit.high)
             }
 
-            fn many(columns: Self::Columns, py: Python<'_>) -> PyResult<Any<'_>> {
-                let (pairs, low, high) = columns;
-                class!(py, "Impacts").call1((Rows(pairs), Column(low), Column(high)))
+            fn many(columns: Vec<Py<PyAny>>, py: Python<'_>) -> PyResult<Any<'_>> {
+                class!(py, "Impacts").call1(PyTuple::new(py, columns)?)
             }
 
             fn one(self, py: Python<'_>) -> PyResult<Any<'_>> {

@@ -5,10 +5,11 @@
 //! `mod` below, its class in `lib.rs`, and the methods of `World` that ask it.
 
 use crate::answers::{Any, Column, class};
+use crate::columns::{By, Columns};
 use crate::error::Result;
 use crate::selection::Selection;
 use crate::signals::interruptible;
-use crate::state::Shared;
+use crate::state::{Shared, State};
 use pliant::{BodyId, HitRows, Scalar};
 use pliant_check::{AnyWorld, with_world};
 use pyo3::exceptions::PyTypeError;
@@ -23,15 +24,12 @@ pub(crate) mod impacts;
 pub(crate) mod pairs;
 
 /// Hit of the library, and the objects of Python that one and many become.
-pub(crate) trait Hit: pliant::InRows + Send + 'static {
-    /// Many hits, column by column, as arrays take them over.
-    type Columns: Send;
+pub(crate) trait Hit: pliant::InRows + Send + Sync + 'static {
+    /// Says which columns hits have.
+    fn columns<'h, 'py>(of: Columns<'h, 'py, Self>) -> PyResult<Columns<'h, 'py, Self>>;
 
-    /// Copies hits into columns. The caller need not have the interpreter lock.
-    fn columns(hits: &[Self]) -> Self::Columns;
-
-    /// Makes arrays of columns.
-    fn many(columns: Self::Columns, py: Python<'_>) -> PyResult<Any<'_>>;
+    /// Makes what Python sees of many hits, of their columns.
+    fn many(columns: Vec<Py<PyAny>>, py: Python<'_>) -> PyResult<Any<'_>>;
 
     /// Makes a named tuple of one hit.
     fn one(self, py: Python<'_>) -> PyResult<Any<'_>>;
@@ -51,23 +49,33 @@ pub(crate) trait Kind: Copy + Send + Sync {
     fn said(self) -> String;
 }
 
+/// Copies hits into arrays, with at most `threads`.
+pub(crate) fn copied<H: Hit>(
+    py: Python<'_>,
+    hits: &[H],
+    threads: usize,
+) -> PyResult<Vec<Py<PyAny>>> {
+    H::columns(Columns::new(py, hits, threads))?.filled()
+}
+
 /// How much is wanted of a query, for hits of any type.
 pub(crate) trait Want: Send {
     type Answer: Send;
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<Self::Answer>;
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, by: By<'_>) -> Result<Self::Answer>;
 }
 
 /// How much is wanted, and the question that may end the search early.
 pub(crate) struct Wanted<'w, W> {
     want: W,
     question: &'w (dyn Fn() -> bool + Sync),
+    by: By<'w>,
 }
 
 impl<'w, W: Want> Wanted<'w, W> {
     /// Answers a query with as much as is wanted.
     pub(crate) fn of<H: Hit>(self, query: pliant::Query<'w, H>) -> Result<W::Answer> {
-        self.want.of(query.interrupt_if(self.question))
+        self.want.of(query.interrupt_if(self.question), self.by)
     }
 }
 
@@ -83,15 +91,16 @@ pub(crate) struct All {
 impl Want for All {
     type Answer = Made;
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<Made> {
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, by: By<'_>) -> Result<Made> {
         let query = query.at_most(self.most);
-        let columns = if self.sort {
-            H::columns(query.all()?)
+        let hits = if self.sort {
+            query.all()?
         } else {
-            let mut hits = Vec::new();
-            query.unsorted(&mut hits)?;
-            H::columns(&hits)
+            let list = by.kept.list();
+            query.unsorted(list)?;
+            list
         };
+        let columns = Python::attach(|py| copied(py, hits, by.threads))?;
         Ok(Box::new(move |py| H::many(columns, py)))
     }
 }
@@ -100,22 +109,24 @@ impl Want for All {
 pub(crate) struct InRows(pub(crate) usize);
 
 /// Hits that wait for the world, which knows how many rows there are.
-type Rowed = Box<dyn FnOnce(&AnyWorld) -> Result<Made> + Send>;
+type Rowed = Box<dyn FnOnce(&AnyWorld, By<'_>) -> Result<Made> + Send>;
 
 impl Want for InRows {
     type Answer = Rowed;
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<Rowed> {
-        let mut hits = Vec::new();
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, by: By<'_>) -> Result<Rowed> {
+        // Taken, since another thread of Python may ask before the rows are made.
+        let mut hits = std::mem::take(by.kept.list::<H>());
         query.at_most(self.0).unsorted(&mut hits)?;
-        Ok(Box::new(move |world| {
+        Ok(Box::new(move |world, by| {
             let mut rows = HitRows::new();
             let starts: Vec<(u32, usize)> = with_world!(world, world => {
                 rows.update(world, &hits)?;
                 let start = |body: BodyId| Some((body.0, rows.start(body)?));
                 world.bodies().filter_map(start).collect()
             });
-            let columns = H::columns(&hits);
+            let columns = Python::attach(|py| copied(py, &hits, by.threads))?;
+            *by.kept.list() = hits;
             Ok(Box::new(move |py| {
                 let offsets = Column(rows.offsets().to_vec());
                 let places = Column(rows.places().to_vec());
@@ -132,7 +143,7 @@ pub(crate) struct First;
 impl Want for First {
     type Answer = Option<Made>;
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<Option<Made>> {
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: By<'_>) -> Result<Option<Made>> {
         let hit = query.first()?;
         Ok(hit.map(|hit| -> Made { Box::new(move |py| hit.one(py)) }))
     }
@@ -144,7 +155,7 @@ pub(crate) struct Prepare;
 impl Want for Prepare {
     type Answer = ();
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<()> {
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: By<'_>) -> Result<()> {
         Ok(query.prepare()?)
     }
 }
@@ -155,7 +166,7 @@ pub(crate) struct Each<'a>(pub(crate) &'a Py<PyAny>);
 impl Want for Each<'_> {
     type Answer = bool;
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<bool> {
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: By<'_>) -> Result<bool> {
         stopped(query.visit(|hit| show(self.0, |py| hit.one(py)))?)
     }
 }
@@ -166,8 +177,8 @@ pub(crate) struct SomeAtATime<'a>(pub(crate) &'a Py<PyAny>);
 impl Want for SomeAtATime<'_> {
     type Answer = bool;
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<bool> {
-        stopped(query.visit_some(|hits| show(self.0, |py| H::many(H::columns(hits), py)))?)
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: By<'_>) -> Result<bool> {
+        stopped(query.visit_some(|hits| show(self.0, |py| H::many(copied(py, hits, 1)?, py)))?)
     }
 }
 
@@ -198,15 +209,24 @@ pub(crate) struct Question<K> {
     pub(crate) kind: K,
 }
 
+/// Asks a world a question for what is wanted.
+pub(crate) fn answer<W: Want>(
+    state: &mut State,
+    question: &(dyn Fn() -> bool + Sync),
+    (kind, of): (impl Kind, pliant::Selection),
+    want: W,
+) -> Result<W::Answer> {
+    let (world, by) = state.lend();
+    let wanted = Wanted { want, question, by };
+    with_world!(world, world => kind.ask(world, of, wanted))
+}
+
 impl<K: Kind> Question<K> {
     /// Asks the world, without the interpreter lock, for what is wanted.
     pub(crate) fn ask<W: Want>(&self, py: Python<'_>, want: W) -> Result<W::Answer> {
         let (kind, of) = (self.kind, self.of.0);
         self.world.with(py, |state| {
-            interruptible(|question| {
-                let wanted = Wanted { want, question };
-                with_world!(&mut state.world, world => kind.ask(world, of, wanted))
-            })
+            interruptible(|question| answer(state, question, (kind, of), want))
         })
     }
 }
@@ -282,7 +302,11 @@ macro_rules! query_class {
             fn rows<'py>(&self, py: Python<'py>, at_most: Option<usize>) -> Result<Any<'py>> {
                 let most = at_most.unwrap_or(usize::MAX);
                 let rowed = self.0.ask(py, $crate::queries::InRows(most))?;
-                Ok(self.0.world.with(py, |state| rowed(&state.world))?(py)?)
+                let rowed = self.0.world.with(py, |state| {
+                    let (world, by) = state.lend();
+                    rowed(world, by)
+                });
+                Ok(rowed?(py)?)
             }
 
             $(#[$first])*

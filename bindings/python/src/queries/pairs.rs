@@ -1,11 +1,11 @@
 //! `Query`: which triangles intersect, which edges cross triangles, and which elements are
 //! candidates; hits are rows of numbers.
 
-use crate::answers::{Any, class, copy_of_rows};
+use crate::answers::{Any, class};
+use crate::columns::Columns;
 use crate::error::Result;
 use crate::options::Threads;
 use crate::queries::{Each, Hit, Kind, Want, Wanted, query_class};
-use numpy::PyArray2;
 use pliant::{CrossingEdge, EdgeEdge, Pair, Scalar, VertexTriangle};
 use pyo3::prelude::*;
 
@@ -51,16 +51,13 @@ impl Kind for Pairs {
 macro_rules! rows {
     ($hit:ident, $class:literal) => {
         impl Hit for $hit {
-            /// The array itself, which is filled under the interpreter lock.
-            type Columns = PyResult<Py<PyArray2<u32>>>;
-
-            fn columns(hits: &[Self]) -> Self::Columns {
-                let rows = hits.iter().map(|&hit| hit.into());
-                Python::attach(|py| Ok(copy_of_rows::<4>(py, rows)?.unbind()))
+            fn columns<'h, 'py>(of: Columns<'h, 'py, Self>) -> PyResult<Columns<'h, 'py, Self>> {
+                of.row(|&hit| <[u32; 4]>::from(hit))
             }
 
-            fn many(columns: Self::Columns, py: Python<'_>) -> PyResult<Any<'_>> {
-                Ok(columns?.into_bound(py).into_any())
+            fn many(columns: Vec<Py<PyAny>>, py: Python<'_>) -> PyResult<Any<'_>> {
+                let rows = columns.into_iter().next();
+                Ok(rows.into_pyobject(py)?)
             }
 
             fn one(self, py: Python<'_>) -> PyResult<Any<'_>> {

@@ -154,7 +154,7 @@ where
     }
 }
 
-/// What a list may be made with: threads, and lists that are kept.
+/// Means of making a list: threads, and lists that are kept.
 pub(crate) struct By<'w> {
     pub(crate) threads: usize,
     pub(crate) kept: &'w mut Kept,

@@ -19,13 +19,14 @@ pub(crate) use exchange::Exchange;
 pub(crate) use grain::Grain;
 use grain::threads_for;
 pub(crate) use interrupt::{Interrupt, Question};
+use lock::locked;
 pub(crate) use per_thread::PerThread;
 pub use pool::Scheduler;
 use pool::{Helpers, Workers};
 use record::Recorder;
 pub use record::{Clock, RecordedPart};
 use std::num::NonZeroUsize;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 /// Most threads of a world: more than machines have.
 const MOST: usize = 256;
@@ -266,24 +267,48 @@ impl Executor<'_> {
         nanoseconds: u64,
         work: &(dyn Fn(usize, &mut J) + Sync),
     ) {
-        let work: &(dyn Fn(usize, &mut J) + Sync) = &|number, job| {
-            if !self.is_interrupted() {
-                work(number, job);
-            }
-        };
-        let Threads { helpers, recorder } = self.threads;
-        if let Some(recorder) = recorder.as_ref().filter(|_| jobs.len() > 1) {
-            let most_threads = threads_for(nanoseconds).min(jobs.len());
-            return recorder.run(jobs, most_threads, work);
-        }
-        let threads = self.threads_for(nanoseconds).min(jobs.len());
-        match helpers {
-            Some(helpers) if threads > 1 => helpers.share(jobs, threads, work),
-            _ => {
-                for (number, job) in jobs.iter_mut().enumerate() {
+        let threads = self.sharing(jobs.len(), nanoseconds);
+        if threads == 0 {
+            for (number, job) in jobs.iter_mut().enumerate() {
+                if !self.is_interrupted() {
                     work(number, job);
                 }
             }
+            return;
+        }
+        // Each is taken once, by whoever has its number.
+        let jobs: Vec<_> = jobs.iter_mut().map(|job| Mutex::new(Some(job))).collect();
+        self.share(jobs.len(), threads, &|number| {
+            let job = locked(&jobs[number]).take();
+            if let Some(job) = job.filter(|_| !self.is_interrupted()) {
+                work(number, job);
+            }
+        });
+    }
+
+    /// Number of threads that share jobs, which take about `nanoseconds`; 0 if nothing is shared
+    /// or recorded.
+    fn sharing(&self, jobs: usize, nanoseconds: u64) -> usize {
+        if self.threads.recorder.is_some() && jobs > 1 {
+            return threads_for(nanoseconds).min(jobs);
+        }
+        let threads = self.threads_for(nanoseconds).min(jobs);
+        let is_shared = self.threads.helpers.is_some() && threads > 1;
+        if is_shared { threads } else { 0 }
+    }
+
+    /// Has threads share jobs by their numbers, or records them.
+    fn share(&self, jobs: usize, threads: usize, work: &(dyn Fn(usize) + Sync)) {
+        match self.threads {
+            Threads {
+                recorder: Some(recorder),
+                ..
+            } => recorder.run(jobs, threads, work),
+            Threads {
+                helpers: Some(helpers),
+                ..
+            } => helpers.share(jobs, threads, work),
+            _ => (0..jobs).for_each(work),
         }
     }
 }

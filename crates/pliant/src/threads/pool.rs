@@ -8,6 +8,7 @@
 
 use super::lock::locked;
 use std::fmt;
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
@@ -80,23 +81,13 @@ impl Helpers {
         self.process != std::process::id()
     }
 
-    /// Runs all jobs together with the calling thread, on at most `threads` threads.
-    pub(super) fn share<J: Send>(
-        &self,
-        jobs: &mut [J],
-        threads: usize,
-        work: &(dyn Fn(usize, &mut J) + Sync),
-    ) {
-        let size = jobs.len().div_ceil(threads);
-        let shares: Vec<_> = jobs
-            .chunks_mut(size)
-            .enumerate()
-            .map(|(which, jobs)| {
-                Mutex::new(JobRange {
-                    first: which * size,
-                    jobs,
-                })
-            })
+    /// Runs jobs together with the calling thread, on at most `threads` threads: calls `work` with
+    /// each number below `jobs`.
+    pub(super) fn share(&self, jobs: usize, threads: usize, work: &(dyn Fn(usize) + Sync)) {
+        let size = jobs.div_ceil(threads);
+        let shares = (0..jobs).step_by(size);
+        let shares: Vec<Share> = shares
+            .map(|first| Mutex::new(first..jobs.min(first + size)))
             .collect();
         let work_from = |own: usize| do_all(&shares, own % shares.len(), work);
         match &self.workers {
@@ -115,8 +106,7 @@ impl Helpers {
 }
 
 /// Runs `work` on `helpers` threads of a pool and on the calling thread. It gets the number of its
-/// thread, which is 0 for the calling one. It is generic over no type of job, since scopes of a
-/// pool are slow to compile.
+/// thread, which is 0 for the calling one.
 fn help(pool: &rayon::ThreadPool, helpers: usize, work: &(dyn Fn(usize) + Sync)) {
     let done = AtomicUsize::new(0);
     pool.in_place_scope(|scope| {
@@ -151,40 +141,25 @@ fn wake(pool: &rayon::ThreadPool, awake: &Arc<AtomicUsize>, helpers: usize) {
     }
 }
 
-/// Adjacent jobs: their owner takes them from the front, other threads from the back.
-struct JobRange<'j, J> {
-    first: usize,
-    jobs: &'j mut [J],
-}
+/// Numbers of adjacent jobs: their owner takes them from the front, other threads from the back.
+type Share = Mutex<Range<usize>>;
 
-impl<'j, J> JobRange<'j, J> {
-    /// Takes a job, with its number.
-    fn take(&mut self, from_front: bool) -> Option<(usize, &'j mut J)> {
-        let jobs = std::mem::take(&mut self.jobs);
-        let (job, rest) = if from_front {
-            jobs.split_first_mut()?
-        } else {
-            jobs.split_last_mut()?
-        };
-        self.jobs = rest;
-        let number = if from_front {
-            self.first += 1;
-            self.first - 1
-        } else {
-            self.first + self.jobs.len()
-        };
-        Some((number, job))
+/// Takes the number of a job.
+fn take(share: &Share, from_front: bool) -> Option<usize> {
+    let numbers = &mut *locked(share);
+    if from_front {
+        numbers.next()
+    } else {
+        numbers.next_back()
     }
 }
 
 /// Runs the jobs of one share, and then of the others, until none is left.
-fn do_all<J>(shares: &[Mutex<JobRange<'_, J>>], own: usize, work: &dyn Fn(usize, &mut J)) {
+fn do_all(shares: &[Share], own: usize, work: &dyn Fn(usize)) {
     let (before, after) = shares.split_at(own);
     for (which, share) in after.iter().chain(before).enumerate() {
-        // Not in the condition of the loop: the lock would be held while the job is done.
-        let take = || locked(share).take(which == 0);
-        while let Some((number, job)) = take() {
-            work(number, job);
+        while let Some(number) = take(share, which == 0) {
+            work(number);
         }
     }
 }
@@ -216,19 +191,10 @@ mod tests {
 
     #[test]
     fn shares_are_taken_from_both_ends() {
-        let mut jobs = [10, 11, 12];
-        let mut share = JobRange {
-            first: 4,
-            jobs: &mut jobs[..],
-        };
-        let mut take = |from_front| {
-            share
-                .take(from_front)
-                .map(|(number, &mut job)| (number, job))
-        };
-        assert_eq!(take(false), Some((6, 12)));
-        assert_eq!(take(true), Some((4, 10)));
-        assert_eq!(take(false), Some((5, 11)));
-        assert_eq!(take(true), None);
+        let share = Mutex::new(4..7);
+        assert_eq!(take(&share, false), Some(6));
+        assert_eq!(take(&share, true), Some(4));
+        assert_eq!(take(&share, false), Some(5));
+        assert_eq!(take(&share, true), None);
     }
 }

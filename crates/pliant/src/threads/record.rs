@@ -49,11 +49,11 @@ impl Recorder {
         Self { count, clock, log }
     }
 
-    /// Runs all jobs, and records their times as a part.
-    pub(super) fn run<J>(&self, jobs: &mut [J], most_threads: usize, work: &dyn Fn(usize, &mut J)) {
+    /// Runs jobs by their numbers, and records their times as a part.
+    pub(super) fn run(&self, jobs: usize, most_threads: usize, work: &dyn Fn(usize)) {
         let serial = self.lap();
-        for (number, job) in jobs.iter_mut().enumerate() {
-            work(number, job);
+        for number in 0..jobs {
+            work(number);
             self.mark();
         }
         let log = &mut *locked(&self.log);

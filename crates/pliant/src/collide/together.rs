@@ -26,6 +26,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Pairs of leaves that are tested before tasks go on. A task stops at twice as many, which bounds
 /// memory.
 const MANY_LEAVES: usize = 1 << 15;
+/// Most pairs of bodies at once, for each thread: the next round still finds them in a cache.
+const PAIRS_A_THREAD: usize = 1 << 12;
 /// Most pairs of bodies whose triangles are counted, to see what a query is worth.
 const SAMPLE: usize = 1024;
 /// Bodies whose trees a job looks up.
@@ -135,13 +137,27 @@ impl Together {
         pairs: &[BodyPair],
         tasks: &mut dyn Tasks<S>,
     ) -> ControlFlow<()> {
+        let at_once = PAIRS_A_THREAD * step.refit.executor.count();
+        pairs.chunks(at_once).try_for_each(|some| {
+            let work = self.work / pairs.len() as u64 * some.len() as u64;
+            self.meet_some(step, bodies, (some, work), tasks)
+        })
+    }
+
+    /// Processes some pairs of bodies, which take about `work` nanoseconds.
+    fn meet_some<S: Coordinate>(
+        &mut self,
+        step: &mut Step,
+        bodies: &mut Bodies<S>,
+        (pairs, mut work): (&[BodyPair], u64),
+        tasks: &mut dyn Tasks<S>,
+    ) -> ControlFlow<()> {
         step.statistics.body_pairs += pairs.len() as u64;
         self.make_ready(step, bodies, pairs)?;
         self.list_pairs(step, bodies, pairs);
         let count = step.refit.executor.count();
         tasks.begin(count);
         tasks.use_all(count);
-        let mut work = self.work;
         while !self.items.nodes.is_empty() {
             std::mem::swap(&mut self.items.nodes, &mut self.items.now);
             self.round(step, bodies, tasks, work)?;

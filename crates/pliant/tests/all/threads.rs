@@ -261,6 +261,30 @@ fn many_shapes_at_once_are_as_one_after_the_other() {
     }
 }
 
+/// More pairs of bodies than two threads take at once.
+#[test]
+fn very_many_pairs_of_bodies_are_taken_some_at_a_time() {
+    let scene = Scene::gather(2_000, 20, Scene::DEFAULT_SEED).unwrap();
+    let answers = [1, 2, 3].map(|threads| {
+        let mut options = Options::default();
+        options.threads = NonZeroUsize::new(threads).unwrap();
+        let mut world = World::<f32>::with_options(options);
+        let mut shape = Vec::new();
+        for body in 0..scene.body_count() {
+            scene.positions(body, 192, &mut shape);
+            world.add(scene.triangles(body), &shape).unwrap();
+        }
+        let of = Selection::Everything;
+        let found = world.intersections(of).all().unwrap().to_vec();
+        let statistics = world.statistics().clone();
+        let contacts = world.contacts(of).all().unwrap().len();
+        let near = world.vertex_triangle_candidates(of, 0.01).all().unwrap();
+        assert!(statistics.body_pairs > 3 << 12 && !found.is_empty());
+        (found, statistics, contacts, near.to_vec())
+    });
+    assert!(answers.iter().all(|answer| *answer == answers[0]));
+}
+
 /// Boxes of bodies are then missing: a broad phase that kept what it made of them would find a body
 /// with itself.
 #[test]

@@ -196,7 +196,7 @@ struct Job<'q, F> {
     make: F,
 }
 
-/// Keys of one thread, and their rests in buckets.
+/// Keys of one thread, or some of them, and their rests in buckets.
 struct Part<'k, R> {
     keys: &'k [u64],
     rests: &'k mut [R],
@@ -232,9 +232,12 @@ impl<T: Send, F: Fn(u64) -> T + Copy + Sync> Job<'_, F> {
             return;
         }
         let nanoseconds = Grain::KEYS.time(made.len());
-        let runs = executor.count().min(made.len() / SHORTEST_RUN).max(1);
+        let runs = executor.threads_for(nanoseconds);
+        let runs = runs.min(made.len() / SHORTEST_RUN).max(1);
         scratch.resize_with(scratch.len().max(runs), Scratch::default);
-        let mut keys = keys.filter(|keys| !keys.is_empty());
+        // One thread may have found nearly all.
+        let most = made.len().div_ceil(runs);
+        let mut keys = keys.flat_map(|keys| keys.chunks(most));
         let first = keys.next().unwrap_or_default();
         let second = keys.next();
         if runs == 1 && second.is_none() {

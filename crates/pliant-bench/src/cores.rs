@@ -21,11 +21,15 @@ pub const MANY: usize = 16;
 const RECORDED: usize = 64;
 /// Margin of candidates, in mean lengths of an edge.
 const MARGIN: f64 = 0.1;
+/// Time for which cores are kept busy before anything is measured.
+const AWAKE: Duration = Duration::from_secs(3);
 /// Parts without work whose waits are timed.
 const WAITS: u32 = 2_000;
 
 /// Scene, triangles a body, and steps: `spheres`, `crowd`, `cloth`, or `gather` with its bodies.
-const SCENES: [(&str, usize, std::ops::Range<u32>); 7] = [
+const SCENES: [(&str, usize, std::ops::Range<u32>); 9] = [
+    ("spheres", 20, 190..196),
+    ("spheres", 320, 190..196),
     ("spheres", 1_280, 190..196),
     ("spheres", 20_480, 190..196),
     ("spheres", 327_680, 190..194),
@@ -128,6 +132,22 @@ impl<'a> Record<'a> {
             measured,
         }
     }
+}
+
+/// Keeps all cores busy for a while. Cores that have slept, of virtual machines above all, are slow
+/// at first, and slower to answer each other.
+pub fn wake_cores() {
+    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let start = Instant::now();
+    std::thread::scope(|scope| {
+        for _ in 0..cores {
+            scope.spawn(|| {
+                while start.elapsed() < AWAKE {
+                    std::hint::spin_loop();
+                }
+            });
+        }
+    });
 }
 
 /// Milliseconds that a part without work costs two threads: the median of some runs.

@@ -5,7 +5,9 @@ use crate::outcome::Outcome;
 use crate::output::{self, Overwrite};
 use crate::table::table;
 use crate::terminal::{print_all, progress};
-use pliant_bench::cores::{COUNT, HeldBack, MANY, Measured, Record, WORKERS, measure, wait_ms};
+use pliant_bench::cores::{
+    COUNT, HeldBack, MANY, Measured, Record, WORKERS, measure, wait_ms, wake_cores,
+};
 use pliant_bench::machine::this_machine;
 use std::path::Path;
 
@@ -38,6 +40,9 @@ pub(super) fn cores(asked: &Asked) -> anyhow::Result<Outcome> {
     header.extend([&held_back, "measured"]);
     let mut rows = table(&header);
     let bar = progress(COUNT as u64, asked.is_quiet);
+    if !asked.is_small {
+        wake_cores();
+    }
     let wait_ms = wait_ms();
     let all = measure(wait_ms, asked.is_small, asked.rounds, &mut |one| {
         rows.add_row(row(one));

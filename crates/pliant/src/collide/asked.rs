@@ -177,7 +177,7 @@ fn ask<K: Kind>(
     };
     let done = common.for_each_batch(kind.needs(), request, interrupt, false, meet);
     if wants_all && done.is_ok() {
-        together.note_cost(&common.statistics);
+        together.note_cost(&kind.needs(), &common.statistics);
     }
     done
 }

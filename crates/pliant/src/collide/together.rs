@@ -26,6 +26,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Pairs of leaves that are tested before tasks go on. A task stops at twice as many, which bounds
 /// memory.
 const MANY_LEAVES: usize = 1 << 15;
+/// Least work that is worth rounds, in nanoseconds: they take a third of it more than pairs one by
+/// one.
+const LEAST_WORK: u64 = 30_000;
 /// Most pairs of bodies at once, for each thread: the next round still finds them in a cache.
 const PAIRS_A_THREAD: usize = 1 << 12;
 /// Most pairs of bodies whose triangles are counted, to see what a query is worth.
@@ -114,16 +117,17 @@ impl Together {
         let a_triangle = Grain::TRIANGLES.time(1);
         let rate = self.rate.unwrap_or(1024 * a_triangle);
         self.work = (triangles as u64).saturating_mul(rate) / 1024;
-        executor.pays(self.work)
+        self.work >= LEAST_WORK && executor.pays(self.work)
     }
 
     /// Estimates the time of the query from its counters, for the next query.
-    pub(crate) fn note_cost(&mut self, statistics: &Statistics) {
-        // Nanoseconds each, as profiles had them: `benchmarks/NOTES.md`, "Where the time goes".
+    pub(crate) fn note_cost(&mut self, needs: &Needs, statistics: &Statistics) {
+        // Nanoseconds each, as recorded jobs have them.
         let boxes = statistics.boxes_bottom_up + statistics.boxes_top_down;
+        let a_candidate = if needs.triangles() { 10 } else { 40 };
         let work = 12 * statistics.node_pairs
-            + 10 * (boxes + statistics.triangle_boxes)
-            + 40 * statistics.candidate_pairs
+            + 6 * (boxes + statistics.triangle_boxes)
+            + a_candidate * statistics.candidate_pairs
             + 20 * statistics.pairs;
         let triangles = std::mem::take(&mut self.triangles) as u64;
         self.rate = (1024 * work).checked_div(triangles).or(self.rate);
@@ -139,7 +143,11 @@ impl Together {
     ) -> ControlFlow<()> {
         let at_once = PAIRS_A_THREAD * step.refit.executor.count();
         pairs.chunks(at_once).try_for_each(|some| {
-            let work = self.work / pairs.len() as u64 * some.len() as u64;
+            let mut work = self.work / pairs.len() as u64 * some.len() as u64;
+            if step.needs.triangles() && some.iter().all(|[a, b]| a == b) {
+                // Most of it is in neighbours, which have a round of their own.
+                work /= 4;
+            }
             self.meet_some(step, bodies, (some, work), tasks)
         })
     }
@@ -171,7 +179,7 @@ impl Together {
             }
         }
         self.list_neighbours(&step.needs);
-        let neighbours = Grain::LEAF_PAIRS.time(5 * RUN as usize * self.items.now.len());
+        let neighbours = Grain::NEIGHBOURS.time(RUN as usize * self.items.now.len());
         self.round(step, bodies, tasks, neighbours)?;
         let looked_at = self.looked_at.iter_mut();
         step.statistics.node_pairs += looked_at.map(|[pairs, _]| *pairs.get_mut()).sum::<u64>();

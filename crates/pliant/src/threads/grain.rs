@@ -1,8 +1,9 @@
 //! Grain sizes of jobs, and the number of threads that the work of a part pays for.
 //!
-//! Idea: `W` nanoseconds on `p` threads take about `W / p + p * HELPER`, which is least at `p =
-//! sqrt(W / HELPER)`. Invariant: results never depend on the number of threads. Times of jobs are
-//! rough figures: they choose how many threads wake, and change no answer.
+//! Idea: `W` nanoseconds on `p` threads take about `W / p + p * HELPER + SHARING`. That is least at
+//! `p = sqrt(W / HELPER)`, and more than `W` where that is small. Invariant: results never depend
+//! on the number of threads. Times of jobs are rough figures: they choose how many threads wake,
+//! and change no answer.
 
 /// Size of a job of some kind of work.
 #[derive(Clone, Copy, Debug)]
@@ -15,18 +16,20 @@ pub(crate) struct Grain {
 
 /// Assumed cost of one more thread, in nanoseconds: handing it a share, and waiting for it.
 const HELPER: u64 = 2_000;
+/// Assumed cost of sharing at all: one core reads what another has in its cache.
+const SHARING: u64 = 6_000;
 
 impl Grain {
     /// Boxes of wide nodes, from vertices or from the boxes below.
     pub(crate) const WIDE_NODES: Self = Self::of(16, 1_500);
     /// Boxes of wide nodes of leaves with all their triangles.
-    pub(crate) const WHOLE: Self = Self::of(4, 3_000);
+    pub(crate) const WHOLE: Self = Self::of(4, 1_000);
     /// Boxes of the triangles in leaves that were reached.
     pub(crate) const LEAVES: Self = Self::of(64, 4_000);
     /// Points that are checked, copied or brought into tree order; whole rows of 32.
     pub(crate) const POINTS: Self = Self::of(2_048, 3_000);
     /// Blocks of eight triangles that are quantized.
-    pub(crate) const QUANTIZED: Self = Self::of(128, 2_000);
+    pub(crate) const QUANTIZED: Self = Self::of(128, 1_000);
     /// Runs of triangles whose elements get boxes.
     pub(crate) const RUNS: Self = Self::of(256, 8_000);
     /// Close pairs that are measured.
@@ -54,6 +57,8 @@ impl Grain {
     pub(crate) const NODE_PAIRS: Self = Self::of(64, 64_000);
     /// Pairs of leaves that are tested.
     pub(crate) const LEAF_PAIRS: Self = Self::of(64, 20_000);
+    /// Leaves that are tested with themselves and their neighbours.
+    pub(crate) const NEIGHBOURS: Self = Self::of(64, 5_000);
 
     /// Rough time of `items` items together, in nanoseconds.
     pub(crate) const fn time(self, items: usize) -> u64 {
@@ -67,7 +72,11 @@ impl Grain {
 
 /// Number of threads that work of `nanoseconds` pays for; at least one, the calling thread.
 pub(crate) fn threads_for(nanoseconds: u64) -> usize {
-    usize::try_from((nanoseconds / HELPER).isqrt()).map_or(usize::MAX, |count| count.max(1))
+    // With less, even two would gain less than they cost: half of it.
+    if nanoseconds < 2 * (SHARING + HELPER) {
+        return 1;
+    }
+    usize::try_from((nanoseconds / HELPER).isqrt()).unwrap_or(usize::MAX)
 }
 
 #[cfg(test)]
@@ -77,7 +86,11 @@ mod tests {
     /// By the model above, for work of 1 ns to 1 s, and up to 256 threads.
     #[test]
     fn more_threads_never_take_longer() {
-        let takes = |work: u64, threads: u64| work / threads + (threads - 1) * HELPER;
+        let shared = |threads: u64| SHARING + (threads - 1) * HELPER;
+        let takes = |work: u64, threads: u64| match threads {
+            1 => work,
+            _ => work / threads + shared(threads),
+        };
         for work in (0..30).map(|power| 1 << power) {
             let mut before = u64::MAX;
             for there_are in 1..=256 {

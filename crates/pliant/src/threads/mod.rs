@@ -107,11 +107,13 @@ impl Threads {
         }
     }
 
-    /// Threads of this process, which may be the child of a fork.
+    /// Threads of this process, which may be the child of a fork. There, the first query does its
+    /// work alone, and the next has threads again.
     #[inline]
     pub(crate) fn here(&mut self) -> &Self {
-        let helpers = self.helpers.as_ref();
-        if let Some(helpers) = helpers.filter(|helpers| helpers.are_elsewhere()) {
+        if let Some(helpers) = &mut self.helpers
+            && helpers.are_here.take() == Some(false)
+        {
             *self = Self::after_fork(helpers);
         }
         self
@@ -235,8 +237,8 @@ impl Executor<'_> {
         jobs.iter().for_each(done);
     }
 
-    /// Runs jobs of a grain; `done` sees each in its final state. With one thread the jobs are not
-    /// collected in a list, since a step then allocates nothing.
+    /// Runs jobs of a grain; `done` sees each in its final state. Where one thread does them, they
+    /// are not collected in a list, so that a step allocates nothing.
     pub(crate) fn run_each<J: Send>(
         &self,
         jobs: impl Iterator<Item = J>,
@@ -244,7 +246,8 @@ impl Executor<'_> {
         work: impl Fn(&mut J) + Sync,
         mut done: impl FnMut(&J),
     ) {
-        if self.are_many() {
+        let may_pay = |most: usize| self.pays(grain.nanoseconds.saturating_mul(most as u64));
+        if self.are_many() && jobs.size_hint().1.is_none_or(may_pay) {
             let mut jobs: Vec<J> = jobs.collect();
             let nanoseconds = grain.nanoseconds * jobs.len() as u64;
             self.run(&mut jobs, nanoseconds, |_, job| work(job));
@@ -408,9 +411,11 @@ mod tests {
             if let Some(helpers) = &mut threads.helpers {
                 helpers.process = helpers.process.wrapping_add(1);
             }
-            let mut jobs = vec![0; 100];
-            run(threads.here(), &mut jobs, |number, job| *job += number + 1);
-            assert!(jobs.iter().copied().eq(1..=100));
+            for _ in 0..2 {
+                let mut jobs = vec![0; 100];
+                run(threads.here(), &mut jobs, |number, job| *job += number + 1);
+                assert!(jobs.iter().copied().eq(1..=100));
+            }
             assert_eq!(threads.helpers.is_some(), many);
             assert!(threads.helpers.is_none_or(|helpers| helpers.count == 3));
         }

@@ -10,7 +10,7 @@ use super::lock::locked;
 use std::fmt;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 /// Time that an idle thread looks for work before it sleeps: longer than one thread alone works in
@@ -48,6 +48,9 @@ pub(super) struct Helpers {
     pub(super) count: usize,
     /// Process that has the threads: the child of a fork has none of them.
     pub(super) process: u32,
+    /// Whether this is known to be that process. It is asked once a query, and only by queries that
+    /// share work, since it is a call of the system.
+    pub(super) are_here: OnceLock<bool>,
 }
 
 impl fmt::Debug for Helpers {
@@ -74,6 +77,7 @@ impl Helpers {
             workers,
             count,
             process: std::process::id(),
+            are_here: OnceLock::new(),
         }
     }
 
@@ -84,6 +88,10 @@ impl Helpers {
     /// Runs jobs together with the calling thread, on at most `threads` threads: calls `work` with
     /// each number below `jobs`.
     pub(super) fn share(&self, jobs: usize, threads: usize, work: &(dyn Fn(usize) + Sync)) {
+        if !*self.are_here.get_or_init(|| !self.are_elsewhere()) {
+            (0..jobs).for_each(work);
+            return;
+        }
         let size = jobs.div_ceil(threads);
         let shares = (0..jobs).step_by(size);
         let shares: Vec<Share> = shares

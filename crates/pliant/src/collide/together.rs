@@ -124,10 +124,10 @@ impl Together {
     pub(crate) fn note_cost(&mut self, needs: &Needs, statistics: &Statistics) {
         // Nanoseconds each, as recorded jobs have them.
         let boxes = statistics.boxes_bottom_up + statistics.boxes_top_down;
-        let a_candidate = if needs.triangles() { 10 } else { 40 };
-        let work = 12 * statistics.node_pairs
+        let a_node_pair = if needs.triangles() { 8 } else { 30 };
+        let work = a_node_pair * statistics.node_pairs
             + 6 * (boxes + statistics.triangle_boxes)
-            + a_candidate * statistics.candidate_pairs
+            + 12 * statistics.candidate_pairs
             + 20 * statistics.pairs;
         let triangles = std::mem::take(&mut self.triangles) as u64;
         self.rate = (1024 * work).checked_div(triangles).or(self.rate);

@@ -278,7 +278,7 @@ fn very_many_pairs_of_bodies_are_taken_some_at_a_time() {
         }
         let of = Selection::Everything;
         let found = world.intersections(of).all().unwrap().to_vec();
-        let statistics = world.statistics().clone();
+        let statistics = *world.statistics();
         let contacts = world.contacts(of).all().unwrap().len();
         let near = world.vertex_triangle_candidates(of, 0.01).all().unwrap();
         assert!(statistics.body_pairs > 3 << 12 && !found.is_empty());

@@ -39,12 +39,17 @@ const A_BODY_THAT_IS_MET: u64 = 4096;
 fn peak(folder: &Path, arguments: &[&str]) -> Option<u64> {
     // More threads than most machines have cores: each has buffers of its own.
     let arguments = [&["check", "--count", "--threads", "16"], arguments].concat();
-    let Measured { said, peak } = measured(folder, &arguments);
-    assert!(said.code < 2, "{}", said.err);
-    if peak.is_none() {
+    // The system maps more of the program in one run than in another, by up to two megabytes.
+    let peaks = [0; 2].map(|_| {
+        let Measured { said, peak } = measured(folder, &arguments);
+        assert!(said.code < 2, "{}", said.err);
+        peak
+    });
+    let least = peaks.into_iter().min().flatten();
+    if least.is_none() {
         eprintln!("skipped: this system does not tell the memory of a process");
     }
-    peak
+    least
 }
 
 /// Peak of the program itself: small frames, but enough that the program runs while it is measured.

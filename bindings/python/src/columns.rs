@@ -154,14 +154,14 @@ where
     }
 }
 
-/// Means of making a list: threads, and lists that are kept.
-pub(crate) struct By<'w> {
+/// Resources of an answer: threads, and lists that are kept.
+pub(crate) struct Resources<'w> {
     pub(crate) threads: usize,
     pub(crate) kept: &'w mut Kept,
 }
 
-/// Lists of hits, one of each type, kept from query to query: memory that is new takes longer to
-/// fill than a search.
+/// Lists of hits, one of each type, kept from query to query. New memory would take longer to fill
+/// than the search takes.
 #[derive(Default)]
 pub(crate) struct Kept(Vec<Box<dyn List>>);
 

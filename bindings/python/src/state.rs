@@ -1,7 +1,7 @@
 //! A world whose precision the first body fixes: float32 or float64.
 
 use crate::arrays::{Coordinates, CopiedCoordinates};
-use crate::columns::{By, Kept};
+use crate::columns::{Kept, Resources};
 use crate::copies::Room;
 use crate::error::{Refused, Result, alone, alone_with, refused};
 use pliant::{BodyId, Error, ErrorKind, Options};
@@ -74,12 +74,12 @@ impl State {
     }
 
     /// The world, and what its answers are listed with.
-    pub(crate) fn lend(&mut self) -> (&mut AnyWorld, By<'_>) {
-        let by = By {
+    pub(crate) fn lend(&mut self) -> (&mut AnyWorld, Resources<'_>) {
+        let resources = Resources {
             threads: self.options.threads.get(),
             kept: &mut self.kept,
         };
-        (&mut self.world, by)
+        (&mut self.world, resources)
     }
 
     /// Copies the world.

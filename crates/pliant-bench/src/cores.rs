@@ -134,13 +134,16 @@ impl<'a> Record<'a> {
     }
 }
 
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, NonZeroUsize::get)
+}
+
 /// Keeps all cores busy for a while. Cores that have slept, of virtual machines above all, are slow
 /// at first, and slower to answer each other.
 pub fn wake_cores() {
-    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
     let start = Instant::now();
     std::thread::scope(|scope| {
-        for _ in 0..cores {
+        for _ in 0..cores() {
             scope.spawn(|| {
                 while start.elapsed() < AWAKE {
                     std::hint::spin_loop();
@@ -178,7 +181,7 @@ pub fn measure(
     rounds: usize,
     show: &mut dyn FnMut(&Measured),
 ) -> Vec<Measured> {
-    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let cores = cores();
     let counts = (0..).map(|power| 1 << power);
     let counts: Vec<usize> = counts.take_while(|&count| count <= cores).collect();
     let mut all = Vec::new();

@@ -6,7 +6,7 @@
 
 use crate::answers::{Any, Column, class};
 use crate::arrays::{self, Coordinates};
-use crate::columns::By;
+use crate::columns::Resources;
 use crate::error::{Refused, Result, refused};
 use crate::options::{self, Threads};
 use crate::queries::{self, Hit, Kind, Made, Prepare, Question, Want, copied};
@@ -176,7 +176,7 @@ struct List {
 impl Want for List {
     type Answer = (Listed, usize);
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: By<'_>) -> Result<(Listed, usize)> {
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: Resources<'_>) -> Result<(Listed, usize)> {
         let mut hits = query.all()?;
         if self.only_first {
             hits = &hits[..hits.len().min(1)];
@@ -191,7 +191,7 @@ struct Join;
 impl Want for Join {
     type Answer = fn(Vec<Listed>, usize) -> PyResult<Made>;
 
-    fn of<H: Hit>(self, _: pliant::Query<'_, H>, _: By<'_>) -> Result<Self::Answer> {
+    fn of<H: Hit>(self, _: pliant::Query<'_, H>, _: Resources<'_>) -> Result<Self::Answer> {
         Ok(|lists, threads| {
             let mut all = Vec::new();
             for list in lists {
@@ -213,7 +213,7 @@ struct Count;
 impl Want for Count {
     type Answer = usize;
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: By<'_>) -> Result<usize> {
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: Resources<'_>) -> Result<usize> {
         // Sorting costs less than handing hits over bit by bit.
         Ok(query.all()?.len())
     }
@@ -226,7 +226,7 @@ struct IsAny;
 impl Want for IsAny {
     type Answer = bool;
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: By<'_>) -> Result<bool> {
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: Resources<'_>) -> Result<bool> {
         Ok(query.first()?.is_some())
     }
 }

@@ -5,7 +5,7 @@
 //! `mod` below, its class in `lib.rs`, and the methods of `World` that ask it.
 
 use crate::answers::{Any, Column, class};
-use crate::columns::{By, Columns};
+use crate::columns::{Columns, Resources};
 use crate::error::Result;
 use crate::selection::Selection;
 use crate::signals::interruptible;
@@ -62,20 +62,25 @@ pub(crate) fn copied<H: Hit>(
 pub(crate) trait Want: Send {
     type Answer: Send;
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>, by: By<'_>) -> Result<Self::Answer>;
+    fn of<H: Hit>(
+        self,
+        query: pliant::Query<'_, H>,
+        resources: Resources<'_>,
+    ) -> Result<Self::Answer>;
 }
 
 /// How much is wanted, and the question that may end the search early.
 pub(crate) struct Wanted<'w, W> {
     want: W,
     question: &'w (dyn Fn() -> bool + Sync),
-    by: By<'w>,
+    resources: Resources<'w>,
 }
 
 impl<'w, W: Want> Wanted<'w, W> {
     /// Answers a query with as much as is wanted.
     pub(crate) fn of<H: Hit>(self, query: pliant::Query<'w, H>) -> Result<W::Answer> {
-        self.want.of(query.interrupt_if(self.question), self.by)
+        self.want
+            .of(query.interrupt_if(self.question), self.resources)
     }
 }
 
@@ -91,16 +96,16 @@ pub(crate) struct All {
 impl Want for All {
     type Answer = Made;
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>, by: By<'_>) -> Result<Made> {
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, resources: Resources<'_>) -> Result<Made> {
         let query = query.at_most(self.most);
         let hits = if self.sort {
             query.all()?
         } else {
-            let list = by.kept.list();
+            let list = resources.kept.list();
             query.unsorted(list)?;
             list
         };
-        let columns = Python::attach(|py| copied(py, hits, by.threads))?;
+        let columns = Python::attach(|py| copied(py, hits, resources.threads))?;
         Ok(Box::new(move |py| H::many(columns, py)))
     }
 }
@@ -109,24 +114,24 @@ impl Want for All {
 pub(crate) struct InRows(pub(crate) usize);
 
 /// Hits that wait for the world, which knows how many rows there are.
-type Rowed = Box<dyn FnOnce(&AnyWorld, By<'_>) -> Result<Made> + Send>;
+type Rowed = Box<dyn FnOnce(&AnyWorld, Resources<'_>) -> Result<Made> + Send>;
 
 impl Want for InRows {
     type Answer = Rowed;
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>, by: By<'_>) -> Result<Rowed> {
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, resources: Resources<'_>) -> Result<Rowed> {
         // Taken, since another thread of Python may ask before the rows are made.
-        let mut hits = std::mem::take(by.kept.list::<H>());
+        let mut hits = std::mem::take(resources.kept.list::<H>());
         query.at_most(self.0).unsorted(&mut hits)?;
-        Ok(Box::new(move |world, by| {
+        Ok(Box::new(move |world, resources| {
             let mut rows = HitRows::new();
             let starts: Vec<(u32, usize)> = with_world!(world, world => {
                 rows.update(world, &hits)?;
                 let start = |body: BodyId| Some((body.0, rows.start(body)?));
                 world.bodies().filter_map(start).collect()
             });
-            let columns = Python::attach(|py| copied(py, &hits, by.threads))?;
-            *by.kept.list() = hits;
+            let columns = Python::attach(|py| copied(py, &hits, resources.threads))?;
+            *resources.kept.list() = hits;
             Ok(Box::new(move |py| {
                 let offsets = Column(rows.offsets().to_vec());
                 let places = Column(rows.places().to_vec());
@@ -143,7 +148,7 @@ pub(crate) struct First;
 impl Want for First {
     type Answer = Option<Made>;
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: By<'_>) -> Result<Option<Made>> {
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: Resources<'_>) -> Result<Option<Made>> {
         let hit = query.first()?;
         Ok(hit.map(|hit| -> Made { Box::new(move |py| hit.one(py)) }))
     }
@@ -155,7 +160,7 @@ pub(crate) struct Prepare;
 impl Want for Prepare {
     type Answer = ();
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: By<'_>) -> Result<()> {
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: Resources<'_>) -> Result<()> {
         Ok(query.prepare()?)
     }
 }
@@ -166,7 +171,7 @@ pub(crate) struct Each<'a>(pub(crate) &'a Py<PyAny>);
 impl Want for Each<'_> {
     type Answer = bool;
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: By<'_>) -> Result<bool> {
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: Resources<'_>) -> Result<bool> {
         stopped(query.visit(|hit| show(self.0, |py| hit.one(py)))?)
     }
 }
@@ -177,7 +182,7 @@ pub(crate) struct SomeAtATime<'a>(pub(crate) &'a Py<PyAny>);
 impl Want for SomeAtATime<'_> {
     type Answer = bool;
 
-    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: By<'_>) -> Result<bool> {
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>, _: Resources<'_>) -> Result<bool> {
         stopped(query.visit_some(|hits| show(self.0, |py| H::many(copied(py, hits, 1)?, py)))?)
     }
 }
@@ -216,8 +221,12 @@ pub(crate) fn answer<W: Want>(
     (kind, of): (impl Kind, pliant::Selection),
     want: W,
 ) -> Result<W::Answer> {
-    let (world, by) = state.lend();
-    let wanted = Wanted { want, question, by };
+    let (world, resources) = state.lend();
+    let wanted = Wanted {
+        want,
+        question,
+        resources,
+    };
     with_world!(world, world => kind.ask(world, of, wanted))
 }
 
@@ -303,8 +312,8 @@ macro_rules! query_class {
                 let most = at_most.unwrap_or(usize::MAX);
                 let rowed = self.0.ask(py, $crate::queries::InRows(most))?;
                 let rowed = self.0.world.with(py, |state| {
-                    let (world, by) = state.lend();
-                    rowed(world, by)
+                    let (world, resources) = state.lend();
+                    rowed(world, resources)
                 });
                 Ok(rowed?(py)?)
             }

@@ -39,7 +39,7 @@ const A_BODY_THAT_IS_MET: u64 = 4096;
 fn peak(folder: &Path, arguments: &[&str]) -> Option<u64> {
     // More threads than most machines have cores: each has buffers of its own.
     let arguments = [&["check", "--count", "--threads", "16"], arguments].concat();
-    // The system maps more of the program in one run than in another, by up to two megabytes.
+    // The system maps more of the program in one run than in another, by more than a megabyte.
     let peaks = [0; 2].map(|_| {
         let Measured { said, peak } = measured(folder, &arguments);
         assert!(said.code < 2, "{}", said.err);

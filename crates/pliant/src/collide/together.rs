@@ -26,8 +26,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Pairs of leaves that are tested before tasks go on. A task stops at twice as many, which bounds
 /// memory.
 const MANY_LEAVES: usize = 1 << 15;
-/// Least work that is worth rounds, in nanoseconds: they take a third of it more than pairs one by
-/// one.
+/// Least work that is worth rounds, in nanoseconds. With less, two threads took longer by rounds
+/// than one thread pair by pair.
 const LEAST_WORK: u64 = 30_000;
 /// Most pairs of bodies at once, for each thread: the next round still finds them in a cache.
 const PAIRS_A_THREAD: usize = 1 << 12;
@@ -122,7 +122,7 @@ impl Together {
 
     /// Estimates the time of the query from its counters, for the next query.
     pub(crate) fn note_cost(&mut self, needs: &Needs, statistics: &Statistics) {
-        // Nanoseconds each, as recorded jobs have them.
+        // Nanoseconds each: rough, fitted to queries of two spheres, a cloth and a crowd.
         let boxes = statistics.boxes_bottom_up + statistics.boxes_top_down;
         let a_node_pair = if needs.triangles() { 8 } else { 30 };
         let work = a_node_pair * statistics.node_pairs

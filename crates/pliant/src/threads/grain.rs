@@ -72,7 +72,7 @@ impl Grain {
 
 /// Number of threads that work of `nanoseconds` pays for; at least one, the calling thread.
 pub(crate) fn threads_for(nanoseconds: u64) -> usize {
-    // With less, even two would gain less than they cost: half of it.
+    // Two threads save half of the work at most.
     if nanoseconds < 2 * (SHARING + HELPER) {
         return 1;
     }
@@ -86,6 +86,7 @@ mod tests {
     /// By the model above, for work of 1 ns to 1 s, and up to 256 threads.
     #[test]
     fn more_threads_never_take_longer() {
+        assert_eq!([15_999, 16_000].map(threads_for), [1, 2]);
         let shared = |threads: u64| SHARING + (threads - 1) * HELPER;
         let takes = |work: u64, threads: u64| match threads {
             1 => work,

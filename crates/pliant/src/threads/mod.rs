@@ -270,15 +270,14 @@ impl Executor<'_> {
         nanoseconds: u64,
         work: &(dyn Fn(usize, &mut J) + Sync),
     ) {
-        let threads = self.sharing(jobs.len(), nanoseconds);
-        if threads == 0 {
+        let Some(threads) = self.sharing(jobs.len(), nanoseconds) else {
             for (number, job) in jobs.iter_mut().enumerate() {
                 if !self.is_interrupted() {
                     work(number, job);
                 }
             }
             return;
-        }
+        };
         // Each is taken once, by whoever has its number.
         let jobs: Vec<_> = jobs.iter_mut().map(|job| Mutex::new(Some(job))).collect();
         self.share(jobs.len(), threads, &|number| {
@@ -289,15 +288,14 @@ impl Executor<'_> {
         });
     }
 
-    /// Number of threads that share jobs, which take about `nanoseconds`; 0 if nothing is shared
-    /// or recorded.
-    fn sharing(&self, jobs: usize, nanoseconds: u64) -> usize {
+    /// Number of threads that share jobs, which take about `nanoseconds`, or would share them where
+    /// they are recorded. None if the calling thread does them alone.
+    fn sharing(&self, jobs: usize, nanoseconds: u64) -> Option<usize> {
         if self.threads.recorder.is_some() && jobs > 1 {
-            return threads_for(nanoseconds).min(jobs);
+            return Some(threads_for(nanoseconds).min(jobs));
         }
         let threads = self.threads_for(nanoseconds).min(jobs);
-        let is_shared = self.threads.helpers.is_some() && threads > 1;
-        if is_shared { threads } else { 0 }
+        (self.threads.helpers.is_some() && threads > 1).then_some(threads)
     }
 
     /// Has threads share jobs by their numbers, or records them.
